@@ -1,0 +1,90 @@
+# shodo: `make` builds build/shodo. Other targets: rooms, test, check-same-bytes, install, install-needs, clean.
+#
+# Settings, on the command line of make:
+#   CXX=clang++ OPT=-O0   another compiler or optimisation; what was built with other flags is built again
+#   BUILD=DIR             where everything goes that is built
+#   PREFIX=DIR DESTDIR=DIR   where `make install` puts the program
+
+OPT = -O2
+BUILD = build
+OUT = out
+PREFIX = /usr/local
+DESTDIR =
+
+# The same bits everywhere: no contraction of a * b + c into one rounding. The library knows no exceptions.
+COMMON_FLAGS = -std=c++20 $(OPT) -ffp-contract=off -Wall -Wextra -Wconversion -Werror -Isrc -Iinclude
+LIBRARY_FLAGS = $(COMMON_FLAGS) -fno-exceptions -fno-rtti
+PROGRAM_FLAGS = $(COMMON_FLAGS)
+TEST_FLAGS = $(COMMON_FLAGS) -I. -Itests
+
+LIBRARY_SOURCES = $(filter-out src/cli/%,$(wildcard src/*.cpp src/*/*.cpp))
+PROGRAM_SOURCES = $(wildcard src/cli/*.cpp)
+TEST_SOURCES = $(wildcard tests/*/*_test.cpp tests/support/*.cpp)
+objects = $(patsubst %.cpp,$(BUILD)/objects/%.o,$(1))
+LIBRARY_OBJECTS = $(call objects,$(LIBRARY_SOURCES))
+PROGRAM_OBJECTS = $(call objects,$(PROGRAM_SOURCES))
+TEST_OBJECTS = $(call objects,$(TEST_SOURCES))
+
+all: $(BUILD)/shodo
+
+# A stamp holds a line of settings and changes only with it.
+define stamp
+	@mkdir -p $(@D)
+	@echo '$(1)' | cmp -s - $@ || echo '$(1)' > $@
+endef
+
+$(BUILD)/flags.stamp: FORCE
+	$(call stamp,$(CXX) $(COMMON_FLAGS) $(CXXFLAGS) $(LDFLAGS))
+$(BUILD)/library.stamp: FORCE
+	$(call stamp,$(LIBRARY_OBJECTS))
+$(BUILD)/program.stamp: FORCE
+	$(call stamp,$(PROGRAM_OBJECTS))
+$(BUILD)/tests.stamp: FORCE
+	$(call stamp,$(TEST_OBJECTS))
+
+$(LIBRARY_OBJECTS): FLAGS = $(LIBRARY_FLAGS)
+$(PROGRAM_OBJECTS): FLAGS = $(PROGRAM_FLAGS)
+$(TEST_OBJECTS): FLAGS = $(TEST_FLAGS)
+$(BUILD)/objects/%.o: %.cpp $(BUILD)/flags.stamp
+	@mkdir -p $(@D)
+	$(CXX) $(FLAGS) $(CXXFLAGS) -MMD -MP -c $< -o $@
+
+$(BUILD)/libshodo.a: $(LIBRARY_OBJECTS) $(BUILD)/library.stamp
+	@rm -f $@
+	$(AR) rcs $@ $(LIBRARY_OBJECTS)
+
+$(BUILD)/shodo: $(PROGRAM_OBJECTS) $(BUILD)/libshodo.a $(BUILD)/program.stamp
+	$(CXX) $(OPT) $(CXXFLAGS) $(LDFLAGS) $(PROGRAM_OBJECTS) $(BUILD)/libshodo.a -o $@
+
+$(BUILD)/tests: $(TEST_OBJECTS) $(BUILD)/libshodo.a $(BUILD)/tests.stamp
+	$(CXX) $(OPT) $(CXXFLAGS) $(LDFLAGS) $(TEST_OBJECTS) $(BUILD)/libshodo.a -lgtest_main -lgtest -lpthread -o $@
+
+# The paper's two figures.
+rooms: $(OUT)/day.png $(OUT)/evening.png
+
+$(OUT)/%.png: data/%.scn $(BUILD)/shodo $(wildcard data/*)
+	@mkdir -p $(OUT)
+	$(BUILD)/shodo render $< -o $@ --stats $(OUT)/$*.json
+
+test: $(BUILD)/shodo $(BUILD)/tests
+	@BUILD=$(BUILD) sh tests/run
+
+# Only the comparison of compilers and optimisation levels; part of `make test`.
+check-same-bytes:
+	@sh tests/same_bytes
+
+install: $(BUILD)/shodo
+	mkdir -p $(DESTDIR)$(PREFIX)/bin
+	install -m 755 $(BUILD)/shodo $(DESTDIR)$(PREFIX)/bin/shodo
+
+install-needs:
+	sh tools/install-needs test
+
+clean:
+	rm -rf $(BUILD) $(OUT)
+
+FORCE:
+.PHONY: all rooms test check-same-bytes install install-needs clean FORCE
+.SECONDARY:
+
+-include $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(TEST_OBJECTS:.o=.d)

@@ -1,0 +1,38 @@
+// What a run counted. All of it is deterministic; times are the caller's business.
+#pragma once
+
+#include <cstdint>
+
+namespace shodo {
+
+struct Statistics {
+  std::uint32_t objects = 0;
+  std::uint32_t meshes = 0;
+  std::uint32_t patches = 0;              // receivers that were not dropped
+  std::uint32_t sub_patches = 0;
+  std::uint32_t channels = 0;             // 1 if every material and light is grey, else 3
+  double lattice_step = 0;                // scene units
+  std::uint32_t vertices_inserted = 0;    // T-junctions
+  std::uint32_t vertices_moved = 0;       // off the interior of a polygon
+  std::uint32_t patches_dropped = 0;      // thinner than 4 lattice steps
+  std::uint32_t patches_thin = 0;         // thinner than 32 lattice steps: samples of their middle half only
+  std::uint32_t polygons_dropped = 0;     // no area
+  std::uint32_t coplanar_overlaps = 0;    // pairs of polygons, counted by check
+  std::uint32_t lights_clamped = 0;       // point lights within one lattice step of a sample
+  std::uint64_t segments_direct = 0;
+  std::uint64_t segments_ambient = 0;
+  std::uint64_t tests_direct = 0;         // one segment against one triangle, early exits included
+  std::uint64_t tests_ambient = 0;
+  std::uint64_t form_factors_computed = 0;  // geometric factors, a pair counted once
+  std::uint64_t nonzeros = 0;             // of the matrix F, both of a pair counted
+  std::uint64_t row_bytes = 0;
+  std::uint32_t rows_scaled = 0;
+  std::uint32_t rows_kept = 0;
+  std::uint32_t rows_recomputed = 0;
+  std::uint32_t sweeps = 0;
+  double solution_bound = 0;              // certified, of the largest illuminance
+  std::uint64_t memory_budget = 0;        // bytes
+  std::uint64_t memory_peak = 0;
+};
+
+}  // namespace shodo

@@ -1,0 +1,66 @@
+// The ambient stage from surfaces to solution (paper 2.2, 3.2).
+//
+// F_ij is the fraction of the flux leaving i that reaches j: deviation D1, the paper's prose says the reverse, but
+// only so do the equations conserve energy (tests/ambient/energy_test.cpp shows both).
+// Rules 1 and 2 of paper 3.2 will come as factor[i] = 0 (an empty row) and reflectance 0 in `sent` (an empty column);
+// a pair is left out of the rows when neither direction is alive. Rule 3 and blocks need columns after the patches.
+#include "ambient/ambient.h"
+
+#include "ambient/ambient_memory.h"
+#include "ambient/gauss_seidel.h"
+#include "ambient/matrix.h"
+
+namespace shodo {
+
+namespace {
+
+/// Taken before the rows, which then fill what is left.
+bool take_solver(Arena& arena, const Scene& scene, Solver& solver) {
+  const std::size_t values = std::size_t{scene.patch_count} * scene.channels;
+  const std::size_t groups = Coarse::group_count(scene);
+  return arena.take("fluxes sent", values, solver.sent) && arena.take("fluxes gathered", values, solver.gathered) &&
+         arena.take("mesh areas", groups, solver.group_area) &&
+         arena.take("mesh reflectances", groups * scene.channels, solver.group_reflectance) &&
+         arena.take("mesh corrections", groups, solver.group_delta);
+}
+
+std::uint64_t solver_bytes(const Scene& scene) {
+  const std::uint64_t values = std::uint64_t{scene.patch_count} * scene.channels;
+  return 16 * values + 8 * std::uint64_t{Coarse::group_count(scene)} * (2 + scene.channels);
+}
+
+}  // namespace
+
+Status light_ambiently(const Scene& scene, const Geometry& geometry, std::span<const Patch> patches,
+                       const DirectLight& direct, Intersector& intersector, const Options& options,
+                       const Progress& progress, Arena& arena, AmbientLight& ambient, Statistics& statistics) {
+  const std::size_t n = scene.patch_count;
+  if (!arena.take("ambient illuminance", n * scene.channels, ambient.patch_lx)) return arena.refused();
+  const ArenaScratch scratch(arena);
+  Matrix matrix(arena);
+  matrix.options = &options;
+  Solver solver;
+  solver.ambient_lx = ambient.patch_lx;
+  Status status = gather_surfaces(scene, geometry, patches, direct, options, arena, matrix.surfaces);
+  if (!status.done()) return status;
+  if (!take_solver(arena, scene, solver)) return arena.refused();
+  if (n == 0) return status;
+  const FirstPassScratch first{solver.sent.first(n), solver.ambient_lx.first(n), solver.gathered};
+  status = build_matrix(direct, progress, arena, intersector, first, matrix, statistics);
+  statistics.segments_ambient = intersector.segments(LightSet::kAmbient);
+  statistics.tests_ambient = intersector.tests(LightSet::kAmbient);
+  if (!status.done()) return status;
+  return solve_rows(direct, intersector, progress, matrix, solver, statistics);
+}
+
+std::uint64_t ambient_result_bytes(const Scene& scene) {
+  return 8 * std::uint64_t{scene.patch_count} * scene.channels;
+}
+
+std::uint64_t smallest_ambient_bytes(const Scene& scene, const Options& options) {
+  const std::uint64_t result = ambient_result_bytes(scene);
+  const std::uint64_t before_rows = surfaces_bytes(scene, options) + solver_bytes(scene);
+  return result + before_rows + (scene.patch_count > 0 ? matrix_bytes(scene, options) : 0);
+}
+
+}  // namespace shodo

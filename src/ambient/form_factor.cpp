@@ -1,0 +1,129 @@
+#include "ambient/form_factor.h"
+
+#include "ambient/near_factor.h"
+
+namespace shodo {
+
+namespace {
+
+constexpr double kMiddleError = 0.25;           // times q^2
+constexpr double kMiddleErrorTriangle = 0.04;  // times q^(3/2)
+constexpr double kEqual = 1e-9;  // areas and heights nearer than this count as equal
+
+enum class Facing { kAway, kFully, kCrossing };
+
+/// Where a patch with centre at `height` over a plane stands to it.
+Facing facing(const PatchShape& shape, double longest_side, double height, const Vec3& normal, double flat) {
+  const double radius = shape.outline == Outline::kConcave ? 2 * longest_side : longest_side;
+  if (height > radius) return Facing::kFully;
+  if (height < -radius) return Facing::kAway;
+  const Extent extent = extent_along(shape, longest_side, normal);
+  if (height + extent.high <= flat) return Facing::kAway;
+  return height + extent.low >= -flat ? Facing::kFully : Facing::kCrossing;
+}
+
+/// Mean of the kernel cos cos / r^2 over the Gauss points of both; the centres are `apart`.
+double mean_kernel(const RowSide& i, const RowSide& j, const Vec3& apart) {
+  double over_i[4], over_j[4];
+  for (int k = 0; k < 4; ++k) {
+    over_i[k] = dot(i.patch->normal, apart + j.gauss[k]);
+    over_j[k] = dot(j.patch->normal, i.gauss[k] - apart);
+  }
+  double sum = 0;
+  for (int k = 0; k < 4; ++k) {
+    const Vec3 from = apart - i.gauss[k];
+    double sum_k = 0;
+    for (int l = 0; l < 4; ++l) {
+      const double squared = length_squared(from + j.gauss[l]);
+      const double h = (over_i[l] - i.own[k]) * (over_j[k] - j.own[l]);
+      sum_k += j.weight[l] * (h / (squared * squared));
+    }
+    sum += i.weight[k] * sum_k;
+  }
+  return sum > 0 ? sum : 0;
+}
+
+double magnitude(double x) { return x < 0 ? -x : x; }
+
+/// True if `i` is to be looked at from points of j. Heights: of i's centre over j's plane, and the other way.
+bool looks_at_first(const Patch& i, const Patch& j, double height_of_i, double height_of_j) {
+  if (magnitude(i.area - j.area) > kEqual * (i.area + j.area)) return i.area > j.area;
+  return height_of_i >= height_of_j - kEqual * (magnitude(height_of_i) + magnitude(height_of_j));
+}
+
+NearFactor near_exchange(const Surfaces& surfaces, std::uint32_t i, std::uint32_t j, bool first, double tolerance,
+                         bool crosses) {
+  const std::uint32_t looking = first ? j : i, seen = first ? i : j;
+  NearPatch points, polygon;
+  points.piece = surfaces.piece(looking);
+  points.normal = surfaces.patch(looking).normal;
+  points.area = surfaces.patch(looking).area;
+  polygon.piece = surfaces.piece(seen);
+  polygon.normal = surfaces.patch(seen).normal;
+  polygon.area = surfaces.patch(seen).area;
+  return near_factor(points, polygon, tolerance, crosses, surfaces.flat);
+}
+
+PairExchange near_pair(const Surfaces& surfaces, const RowSide& i, std::uint32_t j, double over_i, double over_j,
+                       double unshaded, double tolerance, bool crossing) {
+  const Patch& other = surfaces.patch(j);
+  const double least = i.patch->area < other.area ? i.patch->area : other.area;
+  const double most = unshaded < least ? unshaded : least;  // G can't be larger, nor need its error be
+  const bool first = looks_at_first(*i.patch, other, over_j, over_i);
+  const NearFactor factor = near_exchange(surfaces, i.position, j, first, tolerance * most, crossing);
+  return {factor.exchange < least ? factor.exchange : least, factor.error, crossing};
+}
+
+}  // namespace
+
+RowSide row_side(const Surfaces& surfaces, std::uint32_t position) {
+  RowSide side;
+  side.position = position;
+  side.patch = &surfaces.patch(position);
+  side.shape = &surfaces.shape(position);
+  side.side_squared = side.patch->longest_side * side.patch->longest_side;
+  const PatchShape& shape = *side.shape;
+  const std::span<const SamplePoint> set = sample_points(SampleSet::kGauss, shape.outline == Outline::kTriangle);
+  const double twist = dot(side.patch->normal, shape.d);
+  for (std::size_t k = 0; k < 4; ++k) {
+    side.gauss[k] = shape.offset(set[k].x, set[k].y);
+    side.weight[k] = set[k].weight * (1 + (shape.alpha * set[k].x + shape.beta * set[k].y));
+    side.own[k] = twist * (set[k].x * set[k].y);
+  }
+  return side;
+}
+
+PairExchange exchange_between(const Surfaces& surfaces, const RowSide& i, std::uint32_t j, double tolerance) {
+  const Patch& other = surfaces.patch(j);
+  const PatchShape& shape = surfaces.shape(j);
+  const Vec3 apart = other.centre - i.patch->centre;
+  const double over_i = dot(i.patch->normal, apart);  // height of j's centre over i's plane
+  const double over_j = -dot(other.normal, apart);
+  const Facing j_front = facing(shape, other.longest_side, over_i, i.patch->normal, surfaces.flat);
+  if (j_front == Facing::kAway) return {};
+  const Facing i_front = facing(*i.shape, i.patch->longest_side, over_j, other.normal, surfaces.flat);
+  if (i_front == Facing::kAway) return {};
+
+  const bool crossing = j_front == Facing::kCrossing || i_front == Facing::kCrossing;
+  const bool concave = shape.outline == Outline::kConcave || i.shape->outline == Outline::kConcave;
+  const double squared = length_squared(apart);
+  const double sides = i.side_squared + other.longest_side * other.longest_side;
+  const double areas = i.patch->area * other.area * kInversePi;
+  if (tolerance > 0 && !crossing && !concave) {
+    // The centre of an uneven quadrilateral isn't its centroid: the far kernel would be wrong to first order.
+    if (sides <= 3 * tolerance * squared && (shape.even & i.shape->even) != 0) {
+      const double over_fourth = areas / (squared * squared);
+      return {over_fourth * (over_i * over_j), over_fourth * sides / 3, false};
+    }
+    const double q = sides / (3 * squared);
+    const bool triangular = shape.outline == Outline::kTriangle || i.shape->outline == Outline::kTriangle;
+    const double error = triangular ? kMiddleErrorTriangle * q * square_root(q) : kMiddleError * q * q;
+    if (error <= tolerance) {
+      return {areas * mean_kernel(i, row_side(surfaces, j), apart), error * areas / squared, false};
+    }
+  }
+  const double unshaded = squared > 0 ? areas / squared : kInfinity;
+  return near_pair(surfaces, i, j, over_i, over_j, unshaded, tolerance > 0 ? tolerance : kNearTolerance, crossing);
+}
+
+}  // namespace shodo

@@ -1,0 +1,233 @@
+#include "ambient/gauss_seidel.h"
+
+namespace shodo {
+
+namespace {
+
+/// Sweeps without the least change seen so far growing less, after which nothing better is expected.
+constexpr std::uint32_t kPatience = 30;
+/// Sweeps with larger changes than the sweep before, after which corrections are no longer tried.
+constexpr std::uint32_t kSetbacks = 3;
+
+double magnitude(double x) { return x < 0 ? -x : x; }
+
+/// By channel: what a sweep changed at most, and the largest illuminance.
+struct SweepResult {
+  double change[3] = {0, 0, 0};
+  double largest[3] = {0, 0, 0};
+  bool finished = true;
+
+  double largest_of_all() const {
+    return largest[0] > largest[1] ? (largest[0] > largest[2] ? largest[0] : largest[2])
+                                   : (largest[1] > largest[2] ? largest[1] : largest[2]);
+  }
+};
+
+/// One sweep's inner loops at row i: sum over j > i of v_ij sent_j, on top of `sum`.
+template <bool kDoubles, std::uint32_t kChannels>
+void gather(const std::uint16_t* row, std::uint32_t i, const double* sent, double* sum) {
+  for (RowReader<kDoubles> entry(row, i); entry.next();) {
+    const double v = entry.value();
+    const double* from = sent + std::size_t{entry.column()} * kChannels;
+    for (std::uint32_t c = 0; c < kChannels; ++c) sum[c] += v * from[c];
+  }
+}
+
+template <bool kDoubles, std::uint32_t kChannels>
+void scatter(const std::uint16_t* row, std::uint32_t i, const double* sent_i, double* gathered) {
+  for (RowReader<kDoubles> entry(row, i); entry.next();) {
+    const double v = entry.value();
+    double* to = gathered + std::size_t{entry.column()} * kChannels;
+    for (std::uint32_t c = 0; c < kChannels; ++c) to[c] += v * sent_i[c];
+  }
+}
+
+struct Run {
+  const DirectLight& direct;
+  const Intersector& intersector;
+  const Progress& progress;
+  Matrix& matrix;
+  Solver& solver;
+};
+
+/// New values of patch i from its sum; what it sends from now on.
+template <std::uint32_t kChannels>
+void update(Run& run, std::uint32_t i, std::uint32_t group, const double* reflectance, const double* sum,
+            SweepResult& result) {
+  const Surfaces& surfaces = run.matrix.surfaces;
+  const double root = surfaces.root_area[i], factor = run.matrix.factor[i];
+  for (std::uint32_t c = 0; c < kChannels; ++c) {
+    const std::size_t at = std::size_t{surfaces.patch_at[i]} * kChannels + c;
+    const double ambient = factor * sum[c];
+    const double change = ambient - run.solver.ambient_lx[at];
+    const double total = run.direct.patch_lx[at] + ambient;
+    run.solver.ambient_lx[at] = ambient;
+    run.solver.sent[std::size_t{i} * kChannels + c] = reflectance[c] * root * total;
+    run.matrix.coarse.add_change(group, c, root * root, change);
+    if (magnitude(change) > result.change[c]) result.change[c] = magnitude(change);
+    if (magnitude(total) > result.largest[c]) result.largest[c] = magnitude(total);
+  }
+}
+
+template <bool kDoubles, std::uint32_t kChannels>
+SweepResult sweep(Run& run) {
+  const Surfaces& surfaces = run.matrix.surfaces;
+  const std::uint32_t n = surfaces.size();
+  SweepResult result;
+  RowCursor rows(run.matrix, run.intersector);
+  MeshWalk at_i(surfaces, 0);
+  run.matrix.coarse.start_sweep();
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const bool kept = i < run.matrix.store.rows();
+    if ((!kept || i % 256 == 0) && !run.progress.go_on(Stage::kSolution, i, n)) {
+      result.finished = false;
+      return result;
+    }
+    const std::uint16_t* row = rows.row(i);
+    if (!(surfaces.root_area[i] > 0)) continue;
+    at_i.go_to(i);
+    double sum[kChannels];
+    double* gathered = &run.solver.gathered[std::size_t{i} * kChannels];
+    for (std::uint32_t c = 0; c < kChannels; ++c) {
+      sum[c] = gathered[c];
+      gathered[c] = 0;
+    }
+    gather<kDoubles, kChannels>(row, i, run.solver.sent.data(), sum);
+    update<kChannels>(run, i, run.matrix.coarse.group_of_mesh(at_i.place()), at_i.reflectance(), sum, result);
+    scatter<kDoubles, kChannels>(row, i, &run.solver.sent[std::size_t{i} * kChannels], run.solver.gathered.data());
+  }
+  return result;
+}
+
+SweepResult sweep_once(Run& run) {
+  const bool grey = run.matrix.surfaces.scene->channels == 1;
+  if (run.matrix.doubles()) return grey ? sweep<true, 1>(run) : sweep<true, 3>(run);
+  return grey ? sweep<false, 1>(run) : sweep<false, 3>(run);
+}
+
+/// rho_i R_i (E0_i + a_i) of every patch, with the correction of its group added to a_i first. Light is never negative.
+void correct_and_send(Run& run, std::uint32_t c) {
+  const Surfaces& surfaces = run.matrix.surfaces;
+  const std::uint32_t channels = surfaces.scene->channels;
+  MeshWalk at(surfaces, 0);
+  for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
+    if (!(surfaces.root_area[i] > 0)) continue;
+    at.go_to(i);
+    const std::size_t patch = std::size_t{surfaces.patch_at[i]} * channels + c;
+    double& ambient = run.solver.ambient_lx[patch];
+    ambient += run.solver.group_delta[run.matrix.coarse.group_of_mesh(at.place())];
+    if (ambient < 0) ambient = 0;
+    run.solver.sent[std::size_t{i} * channels + c] =
+        at.reflectance()[c] * surfaces.root_area[i] * (run.direct.patch_lx[patch] + ambient);
+  }
+}
+
+void correct(Run& run) {
+  const std::uint32_t groups = run.matrix.coarse.groups();
+  for (std::uint32_t c = 0; c < run.matrix.surfaces.scene->channels; ++c) {
+    run.matrix.coarse.solve(c, run.solver.group_area, run.solver.group_reflectance.subspan(c * groups, groups),
+                            run.solver.group_delta);
+    correct_and_send(run, c);
+  }
+}
+
+/// Areas and mean reflectances of the groups; every patch sends its direct light.
+void prepare(Run& run) {
+  const Surfaces& surfaces = run.matrix.surfaces;
+  const std::uint32_t groups = run.matrix.coarse.groups(), channels = surfaces.scene->channels;
+  Solver& solver = run.solver;
+  for (double& value : solver.ambient_lx) value = 0;
+  for (double& value : solver.sent) value = 0;
+  MeshWalk at(surfaces, 0);
+  for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
+    at.go_to(i);
+    const std::uint32_t g = run.matrix.coarse.group_of_mesh(at.place());
+    const double area = surfaces.root_area[i] * surfaces.root_area[i];
+    solver.group_area[g] += area;
+    for (std::uint32_t c = 0; c < channels; ++c) {
+      solver.group_reflectance[c * groups + g] += area * at.reflectance()[c];
+    }
+  }
+  for (std::uint32_t g = 0; g < groups; ++g) {
+    for (std::uint32_t c = 0; c < channels && solver.group_area[g] > 0; ++c) {
+      solver.group_reflectance[c * groups + g] /= solver.group_area[g];
+    }
+  }
+  for (std::uint32_t c = 0; c < channels; ++c) correct_and_send(run, c);
+}
+
+/// The certified bound relative to the largest illuminance, and the part of it that no sweep takes away.
+struct Bound {
+  double error = 0;
+  double rounding = 0;
+};
+
+Bound bound_after(const Run& run, const SweepResult& result) {
+  const double n = static_cast<double>(run.matrix.surfaces.size()) + 16;
+  const double rounding = n * 0x1p-52;
+  const double largest = result.largest_of_all();
+  Bound bound;
+  if (!(largest > 0)) return bound;
+  for (std::uint32_t c = 0; c < run.matrix.surfaces.scene->channels; ++c) {
+    const double left = 1 - run.matrix.reflected[c] * (1 + rounding);  // the sums themselves are rounded
+    if (!(left > 0)) return {kNoBound, 0};
+    const double from_changes = run.matrix.reflected_upper[c] * (1 + rounding) * result.change[c];
+    const double from_rounding = rounding * result.largest[c];
+    const double error = (from_changes + from_rounding) / (left * largest);
+    if (error > bound.error) bound = {error, from_rounding / (left * largest)};
+  }
+  return bound;
+}
+
+/// Tells when to stop, and whether corrections still help.
+struct Watch {
+  double least = kInfinity;
+  double last = kInfinity;
+  std::uint32_t since = 0;
+  std::uint32_t setbacks = 0;
+
+  void note(double change) {
+    if (change > last) ++setbacks;
+    last = change;
+    ++since;
+    if (change < least) {
+      least = change;
+      since = 0;
+    }
+  }
+};
+
+double largest_change(const SweepResult& result) {
+  const double first = result.change[0] > result.change[1] ? result.change[0] : result.change[1];
+  return first > result.change[2] ? first : result.change[2];
+}
+
+}  // namespace
+
+Status solve_rows(const DirectLight& direct, const Intersector& intersector, const Progress& progress, Matrix& matrix,
+                  Solver& solver, Statistics& statistics) {
+  Run run{direct, intersector, progress, matrix, solver};
+  const double tolerance = matrix.options->tolerance;
+  prepare(run);
+  Watch watch;
+  Status status;
+  for (;;) {
+    const SweepResult result = sweep_once(run);
+    if (!result.finished) {
+      status.code = StatusCode::kInterrupted;
+      return status;
+    }
+    ++statistics.sweeps;
+    const Bound bound = bound_after(run, result);
+    statistics.solution_bound = bound.error;
+    const double change = largest_change(result);
+    watch.note(change);
+    const bool only_rounding = bound.error < kNoBound && bound.error <= 2 * bound.rounding;
+    if (bound.error <= tolerance || only_rounding || !(change > 0) || watch.since >= kPatience) return status;
+    if (watch.setbacks < kSetbacks) {
+      correct(run);
+    }
+  }
+}
+
+}  // namespace shodo

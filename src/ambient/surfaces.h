@@ -1,0 +1,60 @@
+// What the ambient stage knows of every patch before it looks at pairs.
+//
+// Patches are numbered here by their *position*: meshes in an order that geometry alone decides (by their vertices, not
+// by their place in the file), each mesh's patches in their own order. So sums run in the same order, and give the
+// same bits, whatever the order of objects in the file. Columns of the rows are positions too.
+// Bytes: 16 + 12 P a patch (P samples, 1 or 4) + 96 a shape + 9 a mesh.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "ambient/patch_shape.h"
+#include "ambient/sample_set.h"
+#include "base/arena.h"
+#include "light/direct.h"
+#include "shodo/options.h"
+#include "visibility/geometry.h"
+
+namespace shodo {
+
+struct Surfaces {
+  const Scene* scene = nullptr;
+  const Geometry* geometry = nullptr;
+  std::span<const Patch> patches;
+
+  std::span<std::uint32_t> mesh_at;      // order of meshes
+  std::span<std::uint32_t> mesh_begin;   // first position of mesh_at[k]; one more at the end
+  std::span<std::uint8_t> planar;        // of mesh_at[k]: all its patches lie in one plane
+  std::span<std::uint32_t> patch_at;     // position -> patch
+  std::span<std::uint32_t> shape_at;     // position -> shape
+  std::span<PatchShape> shapes;
+  std::span<LatticePoint> samples;       // [position * cached_points + k]: points of cached_set
+  SampleSet cached_set = SampleSet::kGauss;  // kCentre for one segment a pair
+  std::uint32_t cached_points = 4;       // 1 or 4
+  std::span<double> root_area;           // sqrt of the area that isn't hidden; 0: takes no part
+  double flat = 0;                       // heights below it are rounding, scene units
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(patch_at.size()); }
+  const Patch& patch(std::uint32_t position) const { return patches[patch_at[position]]; }
+  const PatchShape& shape(std::uint32_t position) const { return shapes[shape_at[position]]; }
+  const Mesh& mesh(std::uint32_t position) const { return scene->meshes[patch(position).mesh]; }
+  std::uint32_t local(std::uint32_t position) const { return patch_at[position] - mesh(position).first_patch; }
+  Piece piece(std::uint32_t position) const { return patch_piece(*scene, mesh(position), local(position)); }
+  bool triangular(std::uint32_t position) const { return shape(position).outline == Outline::kTriangle; }
+};
+
+/// Errors: kMemory.
+Status gather_surfaces(const Scene& scene, const Geometry& geometry, std::span<const Patch> patches,
+                       const DirectLight& direct, const Options& options, Arena& arena, Surfaces& surfaces);
+
+/// Arena bytes of gather_surfaces.
+std::uint64_t surfaces_bytes(const Scene& scene, const Options& options);
+
+/// Sample (x, y) of a patch in scene coordinates; of a thin one (narrower than 32 lattice steps) only the middle half
+/// is used (design: exact visibility).
+Vec3 sample_place(const Surfaces& surfaces, std::uint32_t position, const SamplePoint& sample);
+/// The lattice points of a set, in its order; returns their number.
+std::uint32_t place_samples(const Surfaces& surfaces, std::uint32_t position, SampleSet set, LatticePoint* at);
+
+}  // namespace shodo

@@ -1,0 +1,147 @@
+#include "ambient/visible_fraction.h"
+
+namespace shodo {
+
+namespace {
+
+/// The samples of one patch: lattice points, and the set they belong to.
+struct Ends {
+  std::uint32_t position;
+  std::span<const SamplePoint> set;
+  const LatticePoint* at;
+};
+
+/// cos cos / r^4 times both distances, and the weights of the samples: 0 where one doesn't see the other's front.
+double kernel(const Surfaces& surfaces, const Ends& i, std::size_t k, const Ends& j, std::size_t l) {
+  const Patch& from = surfaces.patch(i.position);
+  const Patch& to = surfaces.patch(j.position);
+  const Vec3 apart = sample_place(surfaces, j.position, j.set[l]) - sample_place(surfaces, i.position, i.set[k]);
+  const double cosines = dot(from.normal, apart), other = -dot(to.normal, apart);
+  if (!(cosines > 0) || !(other > 0)) return 0;
+  const double squared = length_squared(apart);
+  const PatchShape& shape_i = surfaces.shape(i.position);
+  const PatchShape& shape_j = surfaces.shape(j.position);
+  const double weight_i = i.set[k].weight * (1 + (shape_i.alpha * i.set[k].x + shape_i.beta * i.set[k].y));
+  const double weight_j = j.set[l].weight * (1 + (shape_j.alpha * j.set[l].x + shape_j.beta * j.set[l].y));
+  return weight_i * weight_j * (cosines * other / (squared * squared));
+}
+
+Link link_between(const Surfaces& surfaces, std::uint32_t i, std::uint32_t j) {
+  return {surfaces.mesh(i).object, surfaces.mesh(j).object, LightSet::kAmbient};
+}
+
+/// What the segments of some pairs of samples did.
+struct Seen {
+  bool free = false, blocked = false;
+
+  bool mixed() const { return free && blocked; }
+};
+
+/// Stops as soon as both kinds were met.
+void look(const Surfaces& surfaces, const Ends& i, const Ends& j, bool crossing, Intersector& intersector, Seen& seen) {
+  const Link link = link_between(surfaces, i.position, j.position);
+  for (std::size_t k = 0; k < i.set.size(); ++k) {
+    for (std::size_t l = 0; l < j.set.size(); ++l) {
+      if (crossing && !(kernel(surfaces, i, k, j, l) > 0)) continue;
+      (intersector.blocked(i.at[k], j.at[l], link) ? seen.blocked : seen.free) = true;
+      if (seen.mixed()) return;
+    }
+  }
+}
+
+struct Sums {
+  double all = 0, free = 0;
+};
+
+/// Adds the weights of all pairs of samples, and of those with a free segment; `alike`: all weights the same.
+void weigh(const Surfaces& surfaces, const Ends& i, const Ends& j, bool alike, Intersector& intersector, Sums& sums) {
+  const Link link = link_between(surfaces, i.position, j.position);
+  for (std::size_t k = 0; k < i.set.size(); ++k) {
+    for (std::size_t l = 0; l < j.set.size(); ++l) {
+      const double weight = alike ? 1 : kernel(surfaces, i, k, j, l);
+      if (!(weight > 0)) continue;
+      sums.all += weight;
+      if (!intersector.blocked(i.at[k], j.at[l], link)) sums.free += weight;
+    }
+  }
+}
+
+/// The two sets of both patches. Where they are one set, `many` is empty.
+struct PairEnds {
+  Ends few_i, few_j, many_i, many_j;
+
+  bool one_set() const { return many_i.set.empty(); }
+};
+
+Ends ends_of(const Surfaces& surfaces, std::uint32_t position, SampleSet set, const LatticePoint* at) {
+  return {position, sample_points(set, surfaces.triangular(position)), at};
+}
+
+/// Places what isn't placed yet; a set that is cached isn't placed again.
+PairEnds place_ends(const Surfaces& surfaces, std::uint32_t i, std::uint32_t j, const SegmentSets& sets,
+                    DenseSamples& at_i, DenseSamples& at_j) {
+  if (sets.few == surfaces.cached_set) {
+    const LatticePoint* cached = surfaces.samples.data();
+    const std::size_t stride = surfaces.cached_points;
+    const Ends ends_i = ends_of(surfaces, i, sets.few, cached + i * stride);
+    return {ends_i, ends_of(surfaces, j, sets.few, cached + j * stride), {}, {}};
+  }
+  for (DenseSamples* at : {&at_i, &at_j}) {
+    if (at->placed) continue;
+    const std::uint32_t position = at == &at_i ? i : j;
+    place_samples(surfaces, position, sets.few, at->few);
+    if (sets.many != sets.few) place_samples(surfaces, position, sets.many, at->many);
+    at->placed = true;
+  }
+  PairEnds ends{ends_of(surfaces, i, sets.few, at_i.few), ends_of(surfaces, j, sets.few, at_j.few), {}, {}};
+  if (sets.many != sets.few) {
+    ends.many_i = ends_of(surfaces, i, sets.many, at_i.many);
+    ends.many_j = ends_of(surfaces, j, sets.many, at_j.many);
+  }
+  return ends;
+}
+
+VisibleFraction weighted_fraction(const Surfaces& surfaces, const PairEnds& ends, Intersector& intersector) {
+  for (const bool alike : {false, true}) {
+    Sums sums;
+    if (ends.one_set()) {
+      weigh(surfaces, ends.few_i, ends.few_j, alike, intersector, sums);
+    } else {
+      weigh(surfaces, ends.few_i, ends.many_j, alike, intersector, sums);
+      weigh(surfaces, ends.many_i, ends.few_j, alike, intersector, sums);
+    }
+    if (!(sums.all > 0)) continue;
+    const double value = sums.free / sums.all;
+    const std::size_t segments = ends.one_set() ? ends.few_i.set.size() * ends.few_j.set.size()
+                                                : ends.few_i.set.size() * ends.many_j.set.size() * 2;
+    return {value, value * (1 - value) / static_cast<double>(segments)};
+  }
+  return {0, 0};
+}
+
+}  // namespace
+
+VisibleFraction visible_fraction(const Surfaces& surfaces, std::uint32_t i, std::uint32_t j, bool crossing,
+                                 const Options& options, Intersector& intersector, DenseSamples& dense_i) {
+  DenseSamples at_i, at_j;
+  const bool densify = options.segments_mixed > options.segments_first;
+  const SegmentSets first = segment_sets(options.segments_first);
+  // The row's samples are those of the denser sets if there are any, else of the first.
+  const PairEnds ends = place_ends(surfaces, i, j, first, densify ? at_i : dense_i, at_j);
+  Seen seen;
+  if (ends.one_set()) {
+    look(surfaces, ends.few_i, ends.few_j, crossing, intersector, seen);
+  } else {
+    look(surfaces, ends.few_i, ends.many_j, crossing, intersector, seen);
+    if (!seen.mixed()) look(surfaces, ends.many_i, ends.few_j, crossing, intersector, seen);
+  }
+  if (seen.free && !seen.blocked) return {1, 0};
+  if (seen.blocked && !seen.free) return {0, 0};
+  // Mixed, or no pair of samples with a positive kernel.
+  if (!densify) return weighted_fraction(surfaces, ends, intersector);
+  DenseSamples dense_j;
+  const SegmentSets dense = segment_sets(options.segments_mixed);
+  return weighted_fraction(surfaces, place_ends(surfaces, i, j, dense, dense_i, dense_j), intersector);
+}
+
+}  // namespace shodo

@@ -1,0 +1,198 @@
+#include "cli/output.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <climits>
+#include <cstdlib>
+#include <cstring>
+
+namespace shodo {
+
+namespace {
+
+constexpr std::size_t kBufferBytes = 64 * 1024;
+
+/// Where a name leads; the name itself if nothing is there yet.
+std::string followed(const std::string& name) {
+  char* path = realpath(name.c_str(), nullptr);
+  if (path == nullptr) return name;
+  const std::string result = path;
+  std::free(path);
+  return result;
+}
+
+/// The folder part of a path with its last slash, and the rest.
+std::string folder_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? "" : path.substr(0, slash + 1);
+}
+
+/// A name beside `path`, hidden, for mkstemp and mkdtemp; short enough for any file system that took the name itself.
+std::string pattern_beside(const std::string& path) {
+  const std::string folder = folder_of(path);
+  return folder + "." + path.substr(folder.size()).substr(0, 200) + ".XXXXXX";
+}
+
+mode_t usual_mode(mode_t mode) {
+  const mode_t mask = umask(0);
+  umask(mask);
+  return mode & ~mask;
+}
+
+bool write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+/// 0: a folder without entries; otherwise an errno.
+int empty_folder(const std::string& path) {
+  DIR* folder = opendir(path.c_str());
+  if (folder == nullptr) return errno;
+  int found = 0;
+  while (const dirent* entry = readdir(folder)) {
+    if (std::strcmp(entry->d_name, ".") != 0 && std::strcmp(entry->d_name, "..") != 0) found = ENOTEMPTY;
+  }
+  closedir(folder);
+  return found;
+}
+
+void remove_folder(const std::string& path) {
+  if (DIR* folder = opendir(path.c_str())) {
+    while (const dirent* entry = readdir(folder)) unlinkat(dirfd(folder), entry->d_name, 0);
+    closedir(folder);
+  }
+  rmdir(path.c_str());
+}
+
+}  // namespace
+
+bool FileError::set(const std::string& name, int error) {
+  if (text.empty()) text = (name == "-" ? "standard output" : name) + ": " + std::strerror(error);
+  return false;
+}
+
+OutputFile::~OutputFile() { drop(); }
+
+void OutputFile::drop() {
+  if (descriptor_ > STDERR_FILENO) ::close(descriptor_);
+  descriptor_ = -1;
+  if (!temporary_.empty()) unlink(temporary_.c_str());
+  temporary_.clear();
+}
+
+bool OutputFile::probe(FileError& error) {
+  if (name_ == "-") return true;
+  struct stat found {};
+  if (stat(name_.c_str(), &found) == 0 && !S_ISREG(found.st_mode)) {
+    if (S_ISDIR(found.st_mode)) return error.set(name_, EISDIR);
+    return access(name_.c_str(), W_OK) == 0 || error.set(name_, errno);  // opening a pipe would wait for its reader
+  }
+  const bool works = open(error);
+  drop();
+  return works;
+}
+
+bool OutputFile::open(FileError& error) {
+  if (name_ == "-") {
+    descriptor_ = STDOUT_FILENO;
+    return true;
+  }
+  target_ = followed(name_);
+  struct stat found {};
+  const bool exists = stat(target_.c_str(), &found) == 0;
+  if (exists && !S_ISREG(found.st_mode)) {
+    descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+    return descriptor_ >= 0 || error.set(name_, errno);
+  }
+  if (target_.empty() || target_.back() == '/') return error.set(name_, EISDIR);
+  std::string pattern = pattern_beside(target_);
+  descriptor_ = mkostemp(pattern.data(), O_CLOEXEC);
+  if (descriptor_ < 0) return error.set(name_, errno);
+  temporary_ = pattern;
+  const mode_t mode = exists ? found.st_mode & 07777 : usual_mode(0666);
+  return fchmod(descriptor_, mode) == 0 || error.set(name_, errno);
+}
+
+bool OutputFile::write(std::string_view bytes, FileError& error) {
+  buffer_ += bytes;
+  return buffer_.size() < kBufferBytes || flush(error);
+}
+
+bool OutputFile::flush(FileError& error) {
+  const bool written = write_all(descriptor_, buffer_);
+  const int reason = errno;
+  buffer_.clear();
+  return written || error.set(name_, reason);
+}
+
+bool OutputFile::close(FileError& error) {
+  if (!flush(error)) return false;
+  const int descriptor = descriptor_;
+  descriptor_ = -1;
+  if (descriptor == STDOUT_FILENO) return true;
+  return ::close(descriptor) == 0 || error.set(name_, errno);
+}
+
+bool OutputFile::commit(FileError& error) {
+  if (temporary_.empty()) return true;
+  if (rename(temporary_.c_str(), target_.c_str()) != 0) return error.set(name_, errno);
+  temporary_.clear();
+  return true;
+}
+
+OutputFolder::~OutputFolder() {
+  if (!temporary_.empty()) remove_folder(temporary_);
+}
+
+bool OutputFolder::probe(FileError& error) {
+  const bool works = open(error);
+  if (!temporary_.empty()) remove_folder(temporary_);
+  temporary_.clear();
+  return works;
+}
+
+bool OutputFolder::open(FileError& error) {
+  target_ = name_;
+  while (target_.size() > 1 && target_.back() == '/') target_.pop_back();
+  struct stat found {};
+  if (stat(target_.c_str(), &found) == 0) {
+    struct stat here {};
+    if (const int reason = empty_folder(target_); reason != 0) return error.set(name_, reason);
+    // Replacing the working folder would leave the caller's shell in one that is gone.
+    if (stat(".", &here) == 0 && here.st_dev == found.st_dev && here.st_ino == found.st_ino)
+      return error.set(name_, EBUSY);
+    target_ = followed(target_);
+  }
+  std::string pattern = pattern_beside(target_);
+  if (mkdtemp(pattern.data()) == nullptr) return error.set(name_, errno);
+  temporary_ = pattern;
+  return chmod(temporary_.c_str(), usual_mode(0777)) == 0 || error.set(name_, errno);
+}
+
+bool OutputFolder::write_file(const std::string& name, std::string_view bytes, FileError& error) {
+  const std::string path = temporary_ + "/" + name;
+  const std::string shown = name_ + "/" + name;
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor < 0) return error.set(shown, errno);
+  const bool written = write_all(descriptor, bytes);
+  const int reason = errno;
+  if (::close(descriptor) != 0 && written) return error.set(shown, errno);
+  return written || error.set(shown, reason);
+}
+
+bool OutputFolder::commit(FileError& error) {
+  if (rename(temporary_.c_str(), target_.c_str()) != 0) return error.set(name_, errno);
+  temporary_.clear();
+  return true;
+}
+
+}  // namespace shodo

@@ -1,0 +1,70 @@
+// Files that appear whole or not at all: written under another name beside their own, checked, then renamed.
+//
+// What is there already and is no regular file (a device, a pipe) can't be replaced and is written straight into.
+// "-" is standard output.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace shodo {
+
+/// What went wrong with which file; the first mistake stays. Everything that touches files returns false after one.
+struct FileError {
+  std::string text;  // "out/day.png: No space left on device"; empty: nothing went wrong
+
+  /// Keeps errno's text; always false.
+  bool set(const std::string& name, int error);
+};
+
+class OutputFile {
+ public:
+  explicit OutputFile(std::string name) : name_(std::move(name)) {}
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  /// Whether open() can be expected to work, tried by doing it; leaves nothing behind.
+  bool probe(FileError& error);
+  bool open(FileError& error);
+  bool write(std::string_view bytes, FileError& error);
+  /// Everything is with the system afterwards, and the file's name still the temporary one.
+  bool close(FileError& error);
+  /// Gives the file its name.
+  bool commit(FileError& error);
+
+  const std::string& name() const { return name_; }
+
+ private:
+  bool flush(FileError& error);
+  void drop();
+
+  std::string name_;
+  std::string target_;     // name_ with symbolic links followed
+  std::string temporary_;  // empty: written straight
+  std::string buffer_;
+  int descriptor_ = -1;
+};
+
+/// A folder that is filled beside its name.
+class OutputFolder {
+ public:
+  explicit OutputFolder(std::string name) : name_(std::move(name)) {}
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  bool probe(FileError& error);
+  bool open(FileError& error);
+  /// A whole file in it.
+  bool write_file(const std::string& name, std::string_view bytes, FileError& error);
+  bool commit(FileError& error);
+
+ private:
+  std::string name_;
+  std::string target_;
+  std::string temporary_;
+};
+
+}  // namespace shodo

@@ -1,0 +1,59 @@
+// One run of the program on one scene: what the commands share.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "cli/arguments.h"
+#include "cli/memory.h"
+#include "cli/scene_files.h"
+#include "cli/watch.h"
+#include "model.h"
+
+namespace shodo {
+
+class Run {
+ public:
+  explicit Run(const Arguments& arguments);
+
+  /// Loads the scene into the budget; exit status, 0 if it is loaded and all that follows fits.
+  int load_in_budget();
+  /// Loads the scene into as much memory as it takes.
+  int load_at_any_size();
+  /// Direct and ambient light and the maps.
+  int solve();
+  /// `error`: what the sink stopped for, if it did.
+  int draw(const LineSink& sink, const FileError& error);
+  /// Whether the camera asked for is there, before minutes are spent.
+  int find_camera();
+
+  const Model& model() const { return *model_; }
+  Watch& watch() { return watch_; }
+  const Arguments& arguments() const { return arguments_; }
+  bool draws() const { return draws_; }
+
+  /// Says what went wrong; the exit status.
+  int tell(const Status& status);
+  int tell(const FileError& error);
+  /// A line on standard error, unless --quiet.
+  void warn(const std::string& text);
+  /// What the program did otherwise than the scene says: dropped, moved.
+  void warn_of_changes();
+
+ private:
+  int read_scene();
+  Status load_into(std::size_t bytes);
+  int refuse_budget(std::uint64_t needed);
+
+  const Arguments& arguments_;
+  bool draws_;  // whether the picture's memory counts
+  Watch watch_;
+  SceneFiles files_;
+  std::string_view text_;
+  std::optional<Memory> memory_;
+  Model* model_ = nullptr;
+};
+
+}  // namespace shodo

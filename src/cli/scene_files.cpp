@@ -1,0 +1,62 @@
+#include "cli/scene_files.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+namespace shodo {
+
+namespace {
+
+constexpr std::size_t kLargestFile = std::size_t{256} << 20;
+
+/// 0, or an errno.
+int read_whole(const std::string& path, std::string& text) {
+  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return errno;
+  int error = 0;
+  for (;;) {
+    constexpr std::size_t kStep = 256 * 1024;
+    const std::size_t size = text.size();
+    text.resize(size + kStep);
+    const ssize_t got = ::read(descriptor, text.data() + size, kStep);
+    if (got < 0) error = errno;
+    text.resize(size + (got > 0 ? static_cast<std::size_t>(got) : 0));
+    if (got < 0 && error == EINTR) {
+      error = 0;
+      continue;
+    }
+    if (text.size() > kLargestFile) error = EFBIG;
+    if (got <= 0 || error != 0) break;
+  }
+  close(descriptor);
+  return error;
+}
+
+}  // namespace
+
+SceneFiles::SceneFiles(std::string scene) : scene_(std::move(scene)) {
+  const std::size_t slash = scene_.rfind('/');
+  if (slash != std::string::npos) folder_ = scene_.substr(0, slash + 1);
+}
+
+bool SceneFiles::read_top(std::string_view& text, FileError& error) { return read(scene_, text, error); }
+
+Reader SceneFiles::reader() {
+  return {[](void* self, std::string_view path, std::string_view& text) {
+            SceneFiles& files = *static_cast<SceneFiles*>(self);
+            FileError error;  // the library says which statement named the file
+            return files.read(files.folder_ + std::string(path), text, error);
+          },
+          this};
+}
+
+bool SceneFiles::read(const std::string& path, std::string_view& text, FileError& error) {
+  std::string whole;
+  if (const int reason = read_whole(path, whole); reason != 0) return error.set(path, reason);
+  text = texts_.emplace_back(std::move(whole));
+  return true;
+}
+
+}  // namespace shodo

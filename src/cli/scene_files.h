@@ -1,0 +1,29 @@
+// The scene's file and those that it names, read whole and kept until loading has returned.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <string_view>
+
+#include "cli/output.h"
+#include "shodo/callbacks.h"
+
+namespace shodo {
+
+class SceneFiles {
+ public:
+  /// `scene`: the top file's path; what it names is sought in its folder.
+  explicit SceneFiles(std::string scene);
+
+  bool read_top(std::string_view& text, FileError& error);
+  Reader reader();
+
+ private:
+  bool read(const std::string& path, std::string_view& text, FileError& error);
+
+  std::string scene_;
+  std::string folder_;             // with its slash; empty: the working folder
+  std::deque<std::string> texts_;  // addresses stay
+};
+
+}  // namespace shodo

@@ -1,0 +1,13 @@
+// What a run counted and how long it took, as JSON (contract 1).
+#pragma once
+
+#include <string>
+
+#include "cli/run.h"
+
+namespace shodo {
+
+/// One object; numbers in their shortest form that reads back the same.
+std::string statistics_json(const Model& model, const std::string& scene, const Watch& watch);
+
+}  // namespace shodo

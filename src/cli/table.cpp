@@ -1,0 +1,62 @@
+#include "cli/table.h"
+
+#include <cstdio>
+#include <string>
+
+#include "cli/watch.h"
+
+namespace shodo {
+
+namespace {
+
+void add_number(std::string& line, double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, ",%.9g", value + 0.0);  // -0 becomes 0
+  line += text;
+}
+
+void add_vector(std::string& line, const Vec3& v) {
+  for (const double component : {v.x, v.y, v.z}) add_number(line, component);
+}
+
+void add_light(std::string& line, std::span<const float> lux, std::size_t sub_patch, std::uint32_t channels) {
+  for (std::uint32_t c = 0; c < 3; ++c) {
+    add_number(line, static_cast<double>(lux[sub_patch * channels + (channels == 1 ? 0 : c)]));
+  }
+}
+
+std::string table_line(const Model& model, const std::string& mesh_columns, const Mesh& mesh, std::uint32_t local) {
+  const PieceIndex index = sub_patch_index(mesh, local);
+  const bool triangle = mesh.kind == MeshKind::kTriangle;
+  const std::uint32_t u = triangle ? 2 * index.u + (index.inverted ? 1 : 0) : index.u;
+  const Piece piece = sub_patch_piece(model.scene, mesh, local);
+  const Vec3 area = piece.vector_area();
+  std::string line = mesh_columns + "," + std::to_string(u) + "," + std::to_string(index.v);
+  add_vector(line, model.scene.origin + piece.centre());
+  add_vector(line, normalised(area));
+  add_number(line, length(area));
+  const std::size_t sub_patch = mesh.first_sub_patch + std::size_t{local};
+  add_light(line, model.maps.direct_lx, sub_patch, model.scene.channels);
+  add_light(line, model.maps.ambient_lx, sub_patch, model.scene.channels);
+  return line + "\n";
+}
+
+}  // namespace
+
+bool write_table(const Model& model, OutputFile& file, FileError& error) {
+  if (!file.write("object,mesh,u,v,x,y,z,nx,ny,nz,area,direct_r,direct_g,direct_b,ambient_r,ambient_g,ambient_b\n",
+                  error))
+    return false;
+  for (std::uint32_t m = 0; m < model.scene.meshes.size(); ++m) {
+    if (interrupt_asked()) return false;
+    const Mesh& mesh = model.scene.meshes[m];
+    const std::string columns = std::string(model.scene.objects[mesh.object].name) + "," + std::to_string(m);
+    for (std::uint32_t local = 0; local < mesh.sub_patch_count(); ++local) {
+      if (model.patches[mesh.first_patch + patch_of_sub_patch(mesh, local)].dropped != 0) continue;
+      if (!file.write(table_line(model, columns, mesh, local), error)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace shodo

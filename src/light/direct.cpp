@@ -1,0 +1,194 @@
+// Direct illuminance (paper 2.1): every sub-patch, and the sums over a patch that the ambient stage starts from.
+//
+// Patches ascending, within a patch its sub-patches ascending, within a sub-patch the lights as the file has them: sums
+// are doubles in this order. E0 of a patch is the area-weighted mean over its sub-patches that are not hidden. Bytes
+// left: 4 channels + 1 a sub-patch, 8 channels + 8 a patch; scratch as light/sources.h says.
+#include "light/direct.h"
+
+#include "light/receiver.h"
+#include "light/sources.h"
+#include "light/sub_patch_light.h"
+
+namespace shodo {
+
+namespace {
+
+constexpr std::uint32_t kProgressInterval = 64;
+constexpr double kThinSteps = 32;
+/// Corners of a cell this near to one plane, of its size, are on it but for rounding.
+constexpr double kPlane = 0x1p-40;
+
+Status interrupted() {
+  Status status;
+  status.code = StatusCode::kInterrupted;
+  return status;
+}
+
+/// A light of 1e308 cd is a scene's right; infinity in an output is not.
+double finite(double x) { return x < std::numeric_limits<float>::max() ? x : std::numeric_limits<float>::max(); }
+
+/// Sub-patch k of a patch, counted from the mesh's first; ascending in k. A triangle's has su^2, others su sv.
+class SubPatchesOfPatch {
+ public:
+  SubPatchesOfPatch(const Mesh& mesh, std::uint32_t local_patch)
+      : mesh_(&mesh), patch_(patch_index(mesh, local_patch)) {}
+
+  /// The next one, or kNone after the last.
+  std::uint32_t next() {
+    if (mesh_->kind != MeshKind::kTriangle) {
+      if (k_ == mesh_->su * mesh_->sv) return kNone;
+      const std::uint32_t u = patch_.u * mesh_->su + k_ % mesh_->su, v = patch_.v * mesh_->sv + k_ / mesh_->su;
+      ++k_;
+      return v * mesh_->map_width() + u;
+    }
+    // The parallelogram of an upright and an inverted patch holds 2 su^2; they share it along the diagonal.
+    const std::uint32_t n = mesh_->su;
+    while (k_ < 2 * n * n) {
+      const std::uint32_t tip = k_ % 2, u = k_ / 2 % n, v = k_ / 2 / n;
+      ++k_;
+      if ((u + v + tip >= n) != patch_.inverted) continue;
+      return triangle_piece_order(mesh_->map_width(), {patch_.u * n + u, patch_.v * n + v, tip == 1});
+    }
+    return kNone;
+  }
+
+ private:
+  const Mesh* mesh_;
+  PieceIndex patch_;
+  std::uint32_t k_ = 0;
+};
+
+/// Whether a piece is under 32 lattice steps wide, so that rounding moves its samples noticeably.
+bool is_thin(const Geometry& geometry, const Piece& piece) {
+  const double width = (piece.corners == 3 ? 2 : 1) * length(piece.vector_area());
+  return !(geometry.lattice.steps_per_unit * width >= kThinSteps * piece.longest_side());
+}
+
+/// The plane of the cell if it is plane, so that all its sub-patches agree on what is in front; else the sub-patch's
+/// own.
+Receiver receiver_of(const Scene& scene, std::uint32_t mesh, std::uint32_t cell, const Piece& sub_patch) {
+  Receiver receiver;
+  receiver.mesh = mesh;
+  receiver.cell = cell;
+  receiver.object = scene.meshes[mesh].object;
+  const Piece whole = cell_piece(scene, scene.meshes[mesh], cell);
+  receiver.normal = normalised(whole.vector_area());
+  receiver.anchor = whole.corner[0];
+  const double size = kPlane * whole.longest_side();
+  for (std::uint32_t k = 1; k < whole.corners; ++k) {
+    const double off = receiver.height(whole.corner[k]);
+    if (off <= size && -off <= size) continue;
+    receiver.normal = normalised(sub_patch.vector_area());
+    receiver.anchor = sub_patch.centre();
+    break;
+  }
+  return receiver;
+}
+
+/// Sums over a patch's sub-patches, weighted by area.
+struct PatchSums {
+  double lux[3] = {0, 0, 0};
+  double light_factor = 0;
+  double area = 0;
+  double visible_area = 0;
+};
+
+class DirectStage {
+ public:
+  DirectStage(const Scene& scene, const Geometry& geometry, Sources& sources, DirectLight& direct)
+      : scene_(scene), geometry_(geometry), sources_(sources), direct_(direct) {}
+
+  /// False if the progress callback asked to stop.
+  bool light_patch(std::uint32_t mesh, std::uint32_t local, const Progress& progress);
+
+ private:
+  void light_one(std::uint32_t mesh, std::uint32_t cell, std::uint32_t local, PatchSums& sums);
+  void store(std::uint32_t patch, const PatchSums& sums);
+
+  const Scene& scene_;
+  const Geometry& geometry_;
+  Sources& sources_;
+  DirectLight& direct_;
+  std::uint32_t done_ = 0;
+};
+
+bool DirectStage::light_patch(std::uint32_t m, std::uint32_t local, const Progress& progress) {
+  const Mesh& mesh = scene_.meshes[m];
+  const std::uint32_t cell = cell_of_patch(mesh, local);
+  SubPatchesOfPatch sub_patches(mesh, local);
+  PatchSums sums;
+  for (std::uint32_t k = sub_patches.next(); k != kNone; k = sub_patches.next()) {
+    if (done_ % kProgressInterval == 0 && !progress.go_on(Stage::kDirect, done_, scene_.sub_patch_count)) return false;
+    light_one(m, cell, k, sums);
+    ++done_;
+  }
+  store(mesh.first_patch + local, sums);
+  return true;
+}
+
+void DirectStage::light_one(std::uint32_t m, std::uint32_t cell, std::uint32_t local, PatchSums& sums) {
+  const Mesh& mesh = scene_.meshes[m];
+  const Piece piece = sub_patch_piece(scene_, mesh, local);
+  const double area = length(piece.vector_area());
+  sums.area += area;
+  if (!(area > 0)) return;
+  const Receiver receiver = receiver_of(scene_, m, cell, piece);
+  const SubPatchLight light = light_sub_patch(sources_, receiver, piece, is_thin(geometry_, piece));
+  const std::uint32_t index = mesh.first_sub_patch + local;
+  if (light.hidden) {
+    direct_.hidden[index] = 1;
+    return;
+  }
+  sums.visible_area += area;
+  for (std::uint32_t c = 0; c < scene_.channels; ++c) {
+    const double lux = finite(light.lux[c]);
+    direct_.sub_patch_lx[index * scene_.channels + c] = static_cast<float>(lux);
+    sums.lux[c] += area * lux;
+  }
+  sums.light_factor += area * light.light_factor;
+}
+
+void DirectStage::store(std::uint32_t patch, const PatchSums& sums) {
+  if (!(sums.visible_area > 0)) return;
+  for (std::uint32_t c = 0; c < scene_.channels; ++c) {
+    direct_.patch_lx[patch * scene_.channels + c] = sums.lux[c] / sums.visible_area;
+  }
+  direct_.visible_area[patch] = static_cast<float>(sums.visible_area / sums.area);
+  direct_.light_form_factor[patch] = static_cast<float>(sums.light_factor / sums.visible_area);
+}
+
+Status take_results(const Scene& scene, Arena& arena, DirectLight& direct) {
+  const std::size_t sub_patches = scene.sub_patch_count, patches = scene.patch_count;
+  const bool fits = arena.take("direct illuminance", sub_patches * scene.channels, direct.sub_patch_lx) &&
+                    arena.take("hidden sub-patches", sub_patches, direct.hidden) &&
+                    arena.take("direct illuminance of patches", patches * scene.channels, direct.patch_lx) &&
+                    arena.take("visible areas", patches, direct.visible_area) &&
+                    arena.take("form factors to lights", patches, direct.light_form_factor);
+  return fits ? Status{} : arena.refused();
+}
+
+}  // namespace
+
+Status light_directly(const Scene& scene, const Geometry& geometry, std::span<const Patch> patches,
+                      Intersector& intersector, const Progress& progress, Arena& arena, DirectLight& direct,
+                      Statistics& statistics) {
+  Status status = take_results(scene, arena, direct);
+  if (!status.done()) return status;
+  const ArenaScratch scratch(arena);
+  Sources sources(scene, geometry, intersector);
+  status = sources.prepare(arena);
+  if (!status.done()) return status;
+  DirectStage stage(scene, geometry, sources, direct);
+  for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
+    for (std::uint32_t local = 0; local < scene.meshes[m].patch_count(); ++local) {
+      if (patches[scene.meshes[m].first_patch + local].dropped != 0) continue;
+      if (!stage.light_patch(m, local, progress)) return interrupted();
+    }
+  }
+  statistics.lights_clamped = sources.clamped();
+  statistics.segments_direct = intersector.segments(LightSet::kDirect);
+  statistics.tests_direct = intersector.tests(LightSet::kDirect);
+  return {};
+}
+
+}  // namespace shodo

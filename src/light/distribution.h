@@ -1,0 +1,19 @@
+// Luminous-intensity distributions and attenuation of lights (paper 2.1).
+#pragma once
+
+#include "scene/scene.h"
+
+namespace shodo {
+
+/// Luminous intensity of a point light in direction `away` (from the light, any length), cd: I, or I cos^n about
+/// `towards` and 0 behind. Nothing along the zero vector if the light is aimed.
+double intensity(const Light& light, const Vec3& away);
+
+/// 1 / (C + L d + Q d^2), per square metre, d in metres; 0 where that is not a positive number. Finite for d > 0.
+double attenuation(const Light& light, double metres);
+
+/// What the attenuation makes of illuminance that already falls off as the inverse square: d^2 / (C + L d + Q d^2).
+/// Exactly 1 for the inverse-square law itself.
+double relative_attenuation(const Light& light, double metres);
+
+}  // namespace shodo

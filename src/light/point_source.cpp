@@ -1,0 +1,111 @@
+#include "light/point_source.h"
+
+#include "light/distribution.h"
+
+namespace shodo {
+
+namespace {
+
+/// A sub-patch is near if the light is within this many of its diagonals (more for a narrow distribution).
+constexpr double kNear = 2.5;
+/// A cell's diagonal over its distance, at most, for an isotropic light.
+constexpr double kCellAngle = 0.5;
+constexpr std::uint32_t kDepth = 16;
+
+/// Of the diagonals, and one side, since a triangle's last two corners are one.
+double size_squared(const Vec3* corner) {
+  double largest = length_squared(corner[1] - corner[0]);
+  const double a = length_squared(corner[2] - corner[0]), b = length_squared(corner[3] - corner[1]);
+  if (a > largest) largest = a;
+  return b > largest ? b : largest;
+}
+
+double exponent_of(const Light& light) { return light.aimed ? light.cosine_exponent : 0; }
+
+/// Half the solid angle of a triangle given from the point; negative if it runs clockwise.
+double half_solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double la = length(a), lb = length(b), lc = length(c);
+  const double product = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+  return arctangent2(dot(a, cross(b, c)), product);
+}
+
+/// Cell (x, y) of 2^depth by 2^depth; a triangle is a quadrilateral two corners of which are one.
+struct Cell {
+  std::uint32_t x = 0, y = 0, depth = 0;
+
+  /// Corners seen from `eye`.
+  void corners(const Piece& whole, const Vec3& eye, Vec3* corner) const {
+    const double size = 1.0 / static_cast<double>(std::uint32_t{1} << depth);
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const double s = size * (x + (k == 1 || k == 2 ? 1 : 0)), t = size * (y + (k >= 2 ? 1 : 0));
+      corner[k] = whole.point(s, t) - eye;
+    }
+  }
+  void descend() {
+    x *= 2;
+    y *= 2;
+    ++depth;
+  }
+  /// To the next leaf in Z order; false after the last.
+  bool advance() {
+    while (depth > 0 && (x & y & 1) == 1) {
+      x /= 2;
+      y /= 2;
+      --depth;
+    }
+    if (depth == 0) return false;
+    if ((x & 1) == 1) ++y;
+    x ^= 1;
+    return true;
+  }
+};
+
+}  // namespace
+
+PointLux point_lux(const Scene& scene, const Light& light, const Receiver& receiver, const Vec3& point, double step) {
+  const double height = receiver.height(light.position);
+  if (!(height > 0)) return {};
+  const Vec3 away = point - light.position;
+  double distance = length(away);
+  // Straight below, d is the height but for rounding; on the sample itself it may come out as 0.
+  const double cosine = height < distance ? height / distance : 1;
+  const bool clamped = distance < step;
+  if (clamped) distance = step;
+  return {intensity(light, away) * cosine * attenuation(light, distance * scene.metres_per_unit), clamped};
+}
+
+bool near_point(const Light& light, const Receiver& receiver, const Piece& piece, double step) {
+  // A light within a step of the plane lies on the surface: half its flux would go into the point below it.
+  if (receiver.height(light.position) < step) return false;
+  const double reach = kNear + square_root(exponent_of(light));
+  return length_squared(piece.centre() - light.position) < reach * reach * size_squared(piece.corner);
+}
+
+double near_point_mean(const Scene& scene, const Light& light, const Piece& piece, double step) {
+  Piece whole = piece;
+  whole.corners = 4;                  // corner[3] of a triangle is corner[2]
+  whole.concave = whole.cut = false;  // where a bilinear surface folds, solid angles cancel
+  const double limit = kCellAngle * kCellAngle / (1 + exponent_of(light));
+  const double step_squared = step * step;
+  double flux = 0;  // cd sr
+  Cell cell;
+  do {
+    Vec3 corner[4], centre;
+    for (;;) {
+      cell.corners(whole, light.position, corner);
+      centre = 0.25 * ((corner[0] + corner[1]) + (corner[2] + corner[3]));
+      if (cell.depth == kDepth || size_squared(corner) <= limit * length_squared(centre)) break;
+      cell.descend();
+    }
+    const double solid_angle =
+        -2 * (half_solid_angle(corner[0], corner[1], corner[2]) + half_solid_angle(corner[0], corner[2], corner[3]));
+    const double squared = length_squared(centre) > step_squared ? length_squared(centre) : step_squared;
+    const double law = relative_attenuation(light, square_root(squared) * scene.metres_per_unit);
+    flux += intensity(light, centre) * law * solid_angle;
+  } while (cell.advance());
+  const double metres = scene.metres_per_unit;
+  const double area = length(piece.vector_area()) * metres * metres;
+  return area > 0 && flux > 0 ? flux / area : 0;
+}
+
+}  // namespace shodo

@@ -1,0 +1,29 @@
+// The direct illuminance of one sub-patch: an area mean (paper 2.1, 2.3).
+//
+// Each light is asked at the centre and next to the corners. Where these five (four of a triangle) agree on what is
+// visible, and the illuminance is nearly linear, the mean is a rule of their values that is exact for polynomials of
+// the third degree (second on a triangle). Otherwise it is the mean over 4 x 4 samples (16 triangles); a near point
+// light sends its exact flux (point_source.h) times the visible part.
+//
+// Hidden samples, those inside or under something, are no part of the mean: a floor beside a cupboard is as bright as
+// its visible part. A sample that any light reaches is not hidden; only dark ones are looked at, since that takes a
+// search. A sub-patch is hidden if its centre and all corner samples are.
+//
+// Approximate: what falls between the samples. Stack: 1.7 KiB; no memory.
+#pragma once
+
+#include <cstdint>
+
+#include "light/sources.h"
+
+namespace shodo {
+
+struct SubPatchLight {
+  double lux[3] = {0, 0, 0};  // channels that the scene has
+  double light_factor = 0;    // the part of its hemisphere that area lights and openings fill
+  bool hidden = false;
+};
+
+SubPatchLight light_sub_patch(Sources& sources, const Receiver& receiver, const Piece& piece, bool thin);
+
+}  // namespace shodo

@@ -1,0 +1,41 @@
+// From luminance to the screen (paper 2.4): a map a mesh in display steps, and the table from steps to 8-bit sRGB.
+//
+// A channel's luminance L in cd/m2 is shown as v = (L - MIN) / (MAX - MIN). Steps are v in 13 bits, 8192 = white;
+// texels go up to 65535 (8 times white) and down to 0, so that interpolation sees what lies beyond white, not below
+// black. Samples are clamped at white, averaged over the pixel in steps, and then made sRGB (IEC 61966-2-1).
+//
+// Approximate: a step is 1/8192, at most 0.4 of an 8-bit level (near black). Bytes: 2 a sub-patch and channel; 8193
+// for the table; while it is made, one a sub-patch of the largest mesh.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "base/arena.h"
+#include "map/illuminance_map.h"
+#include "scene/scene.h"
+
+namespace shodo {
+
+inline constexpr std::uint32_t kWhite = 8192;
+
+/// v in steps, to the nearest, within [0, 65535]; here display values become integers, and nowhere else. NaN is 0.
+std::uint16_t display_steps(double v);
+
+/// Luminance of a channel in display steps.
+std::uint16_t luminance_steps(const Display& display, double luminance_cd_m2);
+
+/// level[s] = round(255 sRGB(s / 8192)), s = 0 .. 8192.
+void fill_display_table(std::span<std::uint8_t> level);
+
+/// texel[(first_sub_patch + v width + u) channels + channel] of every mesh; a triangle's map is a square (see the
+/// .cpp).
+struct DisplayMaps {
+  std::span<std::uint16_t> texel;
+};
+
+/// False if the arena is too small. What only closes the sums is released again.
+[[nodiscard]] bool build_display_maps(const Scene& scene, const IlluminanceMaps& maps, Arena& arena,
+                                      DisplayMaps& display);
+
+}  // namespace shodo

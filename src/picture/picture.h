@@ -1,0 +1,34 @@
+// The picture (paper 2.4): camera, integer scanlines, shading from the illuminance maps, display values.
+//
+// view.h makes the camera integer; from there visibility is exact (visible_lines.h). Fronts of meshes show their map
+// (shade.h, display.h), fronts of area lights their luminance, backs and nothing are black; an opening has no back.
+// One line of pixels is finished at a time and handed to the sink.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "base/arena.h"
+#include "map/illuminance_map.h"
+#include "scene/scene.h"
+#include "shodo/callbacks.h"
+#include "shodo/options.h"
+#include "shodo/status.h"
+#include "visibility/geometry.h"
+
+namespace shodo {
+
+/// Draws the camera's view. Errors: kMemory, kInterrupted; kUsage for a camera that the scene doesn't have.
+Status draw_picture(const Scene& scene, const Geometry& geometry, const IlluminanceMaps& maps, const Options& options,
+                    const Progress& progress, Arena& arena, const LineSink& sink);
+
+/// What draw_picture takes of the arena, exactly, each block rounded up to 8 bytes; 0 if there is no such camera.
+///
+///   2 sub_patches channels + max(sub-patches of the largest mesh,
+///   8193 + (4 channels + 3) width + 4 rows + 4 drawn + (sizeof(ActiveTriangle) + 8) active)
+///
+/// rows: of samples. active: the most triangles that touch one of 128 bands of rows; one pass over all triangles
+/// finds it.
+std::uint64_t picture_bytes(const Scene& scene, const Geometry& geometry, const Options& options);
+
+}  // namespace shodo

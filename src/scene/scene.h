@@ -1,0 +1,115 @@
+// The data model of a scene, as the paper has it: objects are surface models with a mesh structure, every surface a
+// diffuse reflector; light sources are points, surfaces (area), polyhedra and suns (paper 2, 2.1).
+//
+// All coordinates are in scene units, relative to the centre of the scene's box (Scene::origin), so that a scene far from
+// the origin loses no digits. Everything lies in the arena; names are copies, the scene's text may go after loading.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "base/vector.h"
+
+namespace shodo {
+
+inline constexpr std::uint32_t kNone = 0xffffffff;
+
+struct Material {
+  std::string_view name;
+  Rgb diffuse;  // reflectance rho, 0 .. 0.9999
+};
+
+/// One of the two sets of flags of paper 3.1 as a scene file gives them: -1 cleared, +1 set, 0 not given.
+struct GivenFlags {
+  std::int8_t blocks = 0;
+  std::int8_t shadowed_towards = 0;
+  std::int8_t shadowed_leaving = 0;
+};
+
+struct Object {
+  std::string_view name;
+  std::uint32_t first_mesh = 0;
+  std::uint32_t mesh_count = 0;
+  std::uint32_t light = kNone;  // the polyhedral light whose faces these are
+  GivenFlags direct, ambient;
+};
+
+enum class MeshKind : std::uint8_t { kQuad, kTriangle, kGrid };
+
+/// A grid of patches on a quad, on a triangle or on a grid of vertices (scene/mesh.h has its geometry).
+///
+/// A quad is one cell, a grid (columns-1) x (rows-1); each cell carries patches_per_cell_u x _v patches. A triangle
+/// divides each edge by `nu` (== nv) and has nu^2 patches. Sub-patches: su x sv a patch, a triangle su^2.
+struct Mesh {
+  MeshKind kind = MeshKind::kQuad;
+  bool concave = false;           // quad only: cut from corner 1 to corner 3 (else the fixed diagonal 0 to 2)
+  bool cut = false;               // quad: not convex, on the diagonal that `concave` says; grid: some cell is so
+  bool wraps_u = false;           // grid only: the last column of vertices is the first
+  std::uint32_t object = 0;
+  std::uint32_t material = 0;
+  std::uint32_t first_vertex = 0; // quad 4, triangle 3, grid cells_u+1 by cells_v+1 row by row
+  std::uint32_t cells_u = 1, cells_v = 1;
+  std::uint32_t nu = 1, nv = 1;   // patches along u and v, of the whole mesh
+  std::uint32_t su = 1, sv = 1;   // sub-patches a patch along u and v
+  std::uint32_t first_patch = 0;      // index of its first patch among all patches of the scene
+  std::uint32_t first_sub_patch = 0;  // and sub-patch
+
+  std::uint32_t patch_count() const { return nu * nv; }
+  std::uint32_t map_width() const { return nu * su; }    // sub-patches; also of a triangle's square
+  std::uint32_t map_height() const { return nv * sv; }
+  std::uint32_t sub_patch_count() const { return map_width() * map_height(); }
+};
+
+enum class LightKind : std::uint8_t { kPoint, kArea, kPolyhedron, kSun };
+
+struct Light {
+  std::string_view name;
+  LightKind kind = LightKind::kPoint;
+  bool aimed = false;            // point: I cos^n about `towards`
+  bool open = false;             // area: an opening, blocks nothing
+  double cosine_exponent = 0;    // n
+  double strength = 0;           // point: intensity, cd; area, polyhedron: luminance, cd/m2; sun: illuminance, lx
+  Rgb colour{{1, 1, 1}};
+  double attenuation[3] = {0, 0, 1};  // C, L, Q: illuminance times d^2 / (C + L d + Q d^2), d in metres
+  Vec3 position;                 // point: where; area and polyhedron: the light's centre
+  Vec3 towards;                  // aimed point and sun: unit vector, the way the light goes
+  Vec3 corners[4];               // area: front towards (c1-c0) x (c2-c0)
+  std::uint32_t object = kNone;  // polyhedron: the object whose faces emit
+  GivenFlags direct, ambient;
+};
+
+struct Camera {
+  std::string_view name;
+  Vec3 eye, look, up;
+  double fov_degrees = 60;  // vertical angle
+};
+
+struct Display {
+  double min_cd_m2 = 1;
+  double max_cd_m2 = 250;
+};
+
+struct Scene {
+  double metres_per_unit = 1;
+  Vec3 origin;              // scene units: what was subtracted from every coordinate
+  Vec3 half_extent;         // of the box of geometry, point lights and cameras
+  Display display;
+  std::uint32_t channels = 1;
+  std::span<Material> materials;
+  std::span<Object> objects;
+  std::span<Mesh> meshes;   // an object's meshes stand together, objects ascending
+  std::span<Vec3> vertices;
+  std::span<Light> lights;  // as an object for flags: index objects.size() + light
+  std::span<Camera> cameras;
+  std::uint32_t patch_count = 0;
+  std::uint32_t sub_patch_count = 0;
+  std::uint32_t polygons_dropped = 0;  // faces without area that the file has
+
+  double largest_half_extent() const {
+    const double xy = half_extent.x > half_extent.y ? half_extent.x : half_extent.y;
+    return xy > half_extent.z ? xy : half_extent.z;
+  }
+};
+
+}  // namespace shodo

@@ -1,0 +1,67 @@
+// Loading a scene file: read once to count and once to keep, then centre it and decide its counts.
+//
+// A mistake that shows only at the end (too many patches, a camera whose eye and look became one point) gets its place
+// by a third reading that stops there.
+#include "scene/scene_file.h"
+
+#include "scene/finish.h"
+#include "scene/scene_store.h"
+#include "scene/statements.h"
+#include "scene/words.h"
+
+namespace shodo {
+
+namespace {
+
+/// A camera's direction must outlive the centring of a scene that is huge against it.
+bool check_cameras(const Scene& scene, Status& status, Wanted& wanted) {
+  for (std::uint32_t k = 0; k < scene.cameras.size(); ++k) {
+    if (scene.cameras[k].eye != scene.cameras[k].look) continue;
+    status.code = StatusCode::kScene;
+    TextBuilder(status.message, sizeof status.message)
+        .add("expected a camera that looks at a point further from its eye, in a scene of this size");
+    wanted = {Wanted::Kind::kCamera, k};
+    return false;
+  }
+  return true;
+}
+
+bool finish(Scene& scene, const Options& options, Status& status, Wanted& wanted) {
+  centre_scene(scene);
+  place_lights(scene);
+  decide_channels(scene);
+  return check_cameras(scene, status, wanted) && decide_counts(scene, options, status, wanted);
+}
+
+bool load(Words& words, const Options& options, Arena& arena, Scene& scene, Status& status) {
+  SceneStore store(scene);
+  SceneReading counting(words, store);
+  if (!read_statements(counting)) return false;
+  if (!store.begin_storing(arena, status)) return false;
+  SceneReading storing(words, store);
+  if (!read_statements(storing)) return false;
+  if (!store.complete()) return changed_while_reading(storing);
+  Wanted wanted;
+  if (finish(scene, options, status, wanted)) return true;
+  store.begin_counting();
+  SceneReading searching(words, store);
+  searching.wanted = wanted;
+  return read_statements(searching) && false;
+}
+
+}  // namespace
+
+Status load_scene(std::string_view name, std::string_view text, const Reader& reader, const Options& options,
+                  Arena& arena, Scene& scene) {
+  Status status = check_count_options(options);
+  if (!status.done()) return status;
+  const Arena::Mark mark = arena.mark();
+  scene = {};
+  Words words(name, text, reader, status);
+  if (load(words, options, arena, scene, status)) return status;
+  scene = {};
+  arena.release(mark);
+  return status;
+}
+
+}  // namespace shodo

@@ -1,0 +1,224 @@
+// The loop over the statements, and those about the scene as a whole: shodo, unit, display, camera, include, material.
+#include "scene/statements.h"
+
+#include "scene/values.h"
+
+namespace shodo {
+
+namespace {
+
+struct Statement {
+  std::string_view word;
+  bool (*read)(SceneReading& reading);
+};
+
+constexpr Statement kStatements[] = {
+    {"camera", read_camera}, {"display", read_display},   {"grid", read_grid}, {"include", read_include},
+    {"light", read_light},   {"material", read_material}, {"obj", read_obj},   {"object", read_object},
+    {"quad", read_quad},     {"sub", read_sub},           {"tri", read_tri},   {"unit", read_unit},
+};
+
+bool expected_statement(Words& words) {
+  TextBuilder message = words.mistake(words.peek());
+  message.add("expected a statement (");
+  std::string_view comma;
+  for (const Statement& statement : kStatements) {
+    message.add(comma).add(statement.word);
+    comma = ", ";
+  }
+  message.add(')');
+  add_found(message, words.peek());
+  return false;
+}
+
+/// The first statement of the top file, and of it only.
+bool read_version(SceneReading& reading) {
+  Words& words = reading.words;
+  if (reading.started) return words.expected("'shodo' once only, as the first statement of the top file");
+  if (!words.at_word() || words.peek().text != "shodo") return words.expected("'shodo 1' as the first statement");
+  words.take();
+  if (!words.at_word() || words.peek().text != "1") return words.expected("format version 1");
+  words.take();
+  reading.started = true;
+  return true;
+}
+
+const Statement* find_statement(const Token& word) {
+  for (const Statement& statement : kStatements) {
+    if (word.kind == TokenKind::kWord && statement.word == word.text) return &statement;
+  }
+  return nullptr;
+}
+
+bool read_statement(SceneReading& reading) {
+  Words& words = reading.words;
+  reading.include = {};
+  if (!reading.started || (words.at_word() && words.peek().text == "shodo")) {
+    if (!read_version(reading)) return false;
+  } else {
+    const Statement* statement = find_statement(words.peek());
+    if (statement == nullptr) return expected_statement(words);
+    reading.statement = words.take();
+    if (!statement->read(reading)) return false;
+  }
+  if (!words.at_end()) return words.expected("the end of the line");
+  return reading.include.kind != TokenKind::kWord || words.enter(reading.include);
+}
+
+struct Unit {
+  std::string_view word;
+  double metres;
+};
+
+constexpr Unit kUnits[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
+
+constexpr std::uint32_t kAlways = 1;
+
+bool read_eye(SceneReading& reading, Camera& camera) { return read_point(reading.words, {"eye"}, camera.eye); }
+bool read_look(SceneReading& reading, Camera& camera) { return read_point(reading.words, {"look"}, camera.look); }
+bool read_up(SceneReading& reading, Camera& camera) { return read_direction(reading.words, {"up"}, camera.up); }
+bool read_fov(SceneReading& reading, Camera& camera) {
+  return read_number(reading.words, {"fov"}, {1, 170}, camera.fov_degrees);
+}
+
+constexpr Key<Camera> kCameraKeys[] = {{"eye", kAlways, kAlways, read_eye},
+                                       {"look", kAlways, kAlways, read_look},
+                                       {"up", kAlways, kAlways, read_up},
+                                       {"fov", kAlways, kAlways, read_fov}};
+
+// 2^-40 of a radian moves a picture by less than 10^-8 of a pixel.
+constexpr double kParallel = 0x1p-40;
+
+bool read_diffuse(SceneReading& reading, Material& material) {
+  return read_grey_or_colour(reading.words, {"diffuse"}, {0, kLargestReflectance}, material.diffuse);
+}
+
+bool read_later(SceneReading& reading, Material&) { return not_supported_yet(reading, reading.key); }
+
+constexpr Key<Material> kMaterialKeys[] = {{"diffuse", kAlways, kAlways, read_diffuse},
+                                           {"texture", kAlways, 0, read_later},
+                                           {"reflect", kAlways, 0, read_later},
+                                           {"transmit", kAlways, 0, read_later},
+                                           {"highlight", kAlways, 0, read_later}};
+
+}  // namespace
+
+bool read_statements(SceneReading& reading) {
+  Words& words = reading.words;
+  if (!words.restart()) return false;
+  while (true) {
+    if (words.peek().kind == TokenKind::kEndOfLine) {
+      words.take();
+    } else if (words.peek().kind == TokenKind::kEndOfFile && words.included()) {
+      words.leave();
+    } else if (words.peek().kind == TokenKind::kEndOfFile && reading.started) {
+      return true;
+    } else {
+      if (!read_statement(reading)) return false;
+      if (reading.store.overflowed()) return changed_while_reading(reading);
+    }
+  }
+}
+
+bool changed_while_reading(SceneReading& reading) {
+  reading.words.mistake(reading.statement, StatusCode::kFile)
+      .add("expected the files of the scene to stay the same while they are read");
+  return false;
+}
+
+bool read_reference(SceneReading& reading, std::string_view what, FindName find, std::uint32_t& index) {
+  Token name;
+  if (!read_name(reading.words, what, name)) return false;
+  index = (reading.store.*find)(name.text);
+  if (index != kNone) return true;
+  index = 0;
+  if (!reading.store.storing()) return true;
+  TextBuilder message = reading.words.mistake(name);
+  message.add("expected ").add(what).add(" defined above");
+  add_found(message, name);
+  return false;
+}
+
+bool read_new_name(SceneReading& reading, std::string_view what, FindName find, Token& name) {
+  if (!read_name(reading.words, what, name)) return false;
+  if ((reading.store.*find)(name.text) == kNone) return true;
+  TextBuilder message = reading.words.mistake(name);
+  message.add("expected ").add(what).add(" not used before");
+  add_found(message, name);
+  return false;
+}
+
+bool not_supported_yet(SceneReading& reading, const Token& at) {
+  reading.words.mistake(at).add('\'').add(at.text).add("' is not supported yet");
+  return false;
+}
+
+/// unit m|cm|mm|in|ft: once, in the top file.
+bool read_unit(SceneReading& reading) {
+  Words& words = reading.words;
+  if (words.included()) return words.expected(reading.statement, "'unit' in the top file only");
+  if (reading.unit_given) return words.expected(reading.statement, "'unit' once only");
+  for (const Unit& unit : kUnits) {
+    if (!words.at_word() || unit.word != words.peek().text) continue;
+    words.take();
+    reading.store.scene().metres_per_unit = unit.metres;
+    return reading.unit_given = true;
+  }
+  return words.expected("m, cm, mm, in or ft");
+}
+
+/// display MIN MAX: once.
+bool read_display(SceneReading& reading) {
+  Words& words = reading.words;
+  if (reading.display_given) return words.expected(reading.statement, "'display' once only");
+  Display& display = reading.store.scene().display;
+  if (!read_number(words, {"display minimum, cd/m2"}, kNotNegative, display.min_cd_m2)) return false;
+  const Token at = words.peek();
+  if (!read_number(words, {"display maximum, cd/m2"}, kNotNegative, display.max_cd_m2)) return false;
+  if (!(display.max_cd_m2 > display.min_cd_m2)) return words.expected(at, "a display maximum above the minimum");
+  return reading.display_given = true;
+}
+
+/// camera NAME eye X Y Z look X Y Z up X Y Z fov DEGREES
+bool read_camera(SceneReading& reading) {
+  Words& words = reading.words;
+  Token name;
+  if (!read_new_name(reading, "the name of a camera", &SceneStore::find_camera, name)) return false;
+  Camera camera;
+  if (!read_keys<Camera>(reading, kCameraKeys, kAlways, camera)) return false;
+  if (camera.look == camera.eye) {
+    words.mistake(name).add("expected a camera that looks at another point than its eye");
+    return false;
+  }
+  if (!(length(cross(unit_vector(camera.look - camera.eye), camera.up)) > kParallel)) {
+    words.mistake(name).add("expected a camera whose 'up' is not parallel to its view");
+    return false;
+  }
+  if (reading.wanted.kind == Wanted::Kind::kCamera && reading.wanted.index == reading.store.counts().cameras) {
+    words.place(name);
+    return false;
+  }
+  camera.name = reading.store.add_name(name.text);
+  reading.store.add(camera);
+  return true;
+}
+
+/// include PATH; the file is entered when the statement has ended.
+bool read_include(SceneReading& reading) {
+  if (!reading.words.at_word()) return reading.words.expected("the path of a file");
+  reading.include = reading.words.take();
+  return true;
+}
+
+/// material NAME diffuse RHO | R G B
+bool read_material(SceneReading& reading) {
+  Token name;
+  if (!read_new_name(reading, "the name of a material", &SceneStore::find_material, name)) return false;
+  Material material;
+  if (!read_keys<Material>(reading, kMaterialKeys, kAlways, material)) return false;
+  material.name = reading.store.add_name(name.text);
+  reading.store.add(material);
+  return true;
+}
+
+}  // namespace shodo

@@ -1,0 +1,74 @@
+// A scene on the lattice: what blocks segments, what is drawn, where samples lie (design: exact visibility).
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "base/arena.h"
+#include "base/lattice.h"
+#include "scene/mesh.h"
+#include "scene/scene.h"
+#include "shodo/statistics.h"
+#include "shodo/status.h"
+
+namespace shodo {
+
+/// A triangle that blocks: vertices on even lattice points, counter-clockwise seen from its front.
+struct Triangle {
+  LatticePoint a, b, c;
+  std::uint32_t object = 0;  // objects first, then lights: objects.size() + light
+  LatticeVector n;           // (b - a) x (c - a), components within 2^41
+  std::int64_t d = 0;        // n . a
+
+  /// Positive in front, negative behind, zero in the plane; exact.
+  std::int64_t side(const LatticePoint& p) const { return n.x * p.x + n.y * p.y + n.z * p.z - d; }
+};
+
+/// A triangle of the picture, with map coordinates (u, v) at a, b, c in sub-patches of its mesh, 24.8 fixed point.
+/// The plane and the vertices are its own, since a quad that is no parallelogram is drawn patch by patch.
+struct DrawnTriangle {
+  LatticePoint vertex[3];
+  std::int32_t u[3] = {0, 0, 0};
+  std::int32_t v[3] = {0, 0, 0};
+  std::uint32_t mesh = kNone;   // kNone: a face of an area light
+  std::uint32_t light = kNone;  // the area light
+};
+
+/// A polygon of the file (a cell of a mesh or an area light) and its triangles, contiguous in Geometry::triangles.
+struct PolygonTriangles {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
+struct Geometry {
+  Lattice lattice;
+  std::span<Triangle> triangles;      // file order: objects' meshes ascending, then area lights; open lights have none
+  std::span<PolygonTriangles> cells;  // per cell of each mesh: Geometry::first_cell[mesh] + cell
+  std::span<std::uint32_t> first_cell;          // per mesh
+  std::span<PolygonTriangles> light_triangles;  // per light; none for all but area lights that block
+  std::span<DrawnTriangle> drawn;               // meshes ascending, then area lights (open ones too)
+  std::span<LatticePoint> light_points;  // per light: where a point light stands, odd, in front of what it lies on
+  std::uint32_t inserted = 0;            // T-junction vertices
+  std::uint32_t moved = 0;               // vertices moved off a polygon's interior
+};
+
+/// Places the scene on the lattice, mends T-junctions and near-touching vertices, cuts polygons into triangles.
+Status place_scene(const Scene& scene, Arena& arena, Geometry& geometry);
+
+/// The patches of the whole scene, dropped ones marked; counts dropped and thin ones.
+Status build_patches(const Scene& scene, const Geometry& geometry, Arena& arena, std::span<Patch>& patches,
+                     Statistics& statistics);
+
+/// How far in from a patch's borders its samples keep, of its sides: 0, or 1/4 for a thin one, whose lattice positions
+/// would leave it otherwise. A sample at parameter s of 0 .. 1 goes to inset + (1 - 2 inset) s.
+double sample_inset(const Patch& patch);
+
+/// The odd lattice point of a point on cell `cell` of `mesh`, moved by steps of 2 along the dominant axis of the
+/// polygon's normal until strictly in front of the polygon's own triangles there.
+LatticePoint sample_point(const Scene& scene, const Geometry& geometry, std::uint32_t mesh, std::uint32_t cell,
+                          const Vec3& point);
+
+/// The odd point of a point on an area light, strictly in front of the light's polygon.
+LatticePoint light_sample_point(const Scene& scene, const Geometry& geometry, std::uint32_t light, const Vec3& point);
+
+}  // namespace shodo

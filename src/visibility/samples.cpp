@@ -1,0 +1,111 @@
+// Where segments start and end: odd lattice points strictly in front of the surface they belong to.
+//
+// A point is rounded to the nearest odd point and moved by steps of 2 along the dominant axis of the polygon's normal
+// until it is in front of the triangle that lies there; one division finds how many. A point beside all triangles (on a
+// polygon's border, after rounding) takes the plane of the nearest of them.
+// Exact: being in front. Approximate: the place, by a few lattice steps.
+#include "visibility/geometry.h"
+#include "visibility/placement.h"
+
+namespace shodo {
+
+namespace {
+
+std::int64_t magnitude(std::int64_t x) { return x < 0 ? -x : x; }
+
+std::int64_t component(const LatticeVector& v, std::uint32_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+std::uint32_t dominant_axis(const LatticeVector& n) {
+  const std::int64_t x = magnitude(n.x), y = magnitude(n.y), z = magnitude(n.z);
+  if (x >= y && x >= z) return 0;
+  return y >= z ? 1 : 2;
+}
+
+/// Along `axis`, how far p lies outside the triangle in barycentric coordinates; 0 or less within or on it.
+double outside(const Triangle& triangle, std::uint32_t axis, const LatticePoint& p) {
+  const LatticePoint* corner[3] = {&triangle.a, &triangle.b, &triangle.c};
+  const double whole = static_cast<double>(component(triangle.n, axis));
+  double worst = -1;
+  for (int k = 0; k < 3; ++k) {
+    const LatticePoint &a = *corner[k], &b = *corner[(k + 1) % 3];
+    const double part = -static_cast<double>(component(cross(b - a, p - a), axis)) / whole;
+    if (part > worst) worst = part;
+  }
+  return worst;
+}
+
+void move_along(std::uint32_t axis, std::int64_t by, LatticePoint& p) {
+  std::int32_t& coordinate = axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+  coordinate = static_cast<std::int32_t>(coordinate + by);
+}
+
+/// Strictly in front of `triangle` by the fewest steps of 2 along `axis`, where its normal isn't zero.
+void move_in_front(const Triangle& triangle, std::uint32_t axis, LatticePoint& p) {
+  const std::int64_t side = triangle.side(p);
+  if (side > 0) return;
+  const std::int64_t n = component(triangle.n, axis);
+  const std::int64_t steps = -side / (2 * magnitude(n)) + 1;
+  move_along(axis, n > 0 ? 2 * steps : -2 * steps, p);
+}
+
+/// In front of the one of the triangles that lies at p as seen along the dominant axis of their common normal.
+LatticePoint in_front(std::span<const Triangle> triangles, LatticePoint p) {
+  LatticeVector normal;
+  for (const Triangle& triangle : triangles) {
+    normal = {normal.x + triangle.n.x, normal.y + triangle.n.y, normal.z + triangle.n.z};
+  }
+  const std::uint32_t axis = dominant_axis(normal);
+  const bool up = component(normal, axis) > 0;
+  const Triangle* nearest = nullptr;
+  double least = 0;
+  for (const Triangle& triangle : triangles) {
+    const std::int64_t n = component(triangle.n, axis);
+    if (n == 0 || (n > 0) != up) continue;  // a sliver that stands upright or is folded over
+    const double distance = outside(triangle, axis, p);
+    if (distance <= 0) {
+      move_in_front(triangle, axis, p);
+      nearest = nullptr;
+      least = -1;
+    } else if (least >= 0 && (nearest == nullptr || distance < least)) {
+      nearest = &triangle;
+      least = distance;
+    }
+  }
+  if (nearest != nullptr) move_in_front(*nearest, axis, p);
+  return p;
+}
+
+/// An open light's polygon, which no triangle stands for.
+std::uint32_t open_light_triangles(const Geometry& geometry, const Light& light, Triangle (&triangles)[2]) {
+  std::uint32_t count = 0;
+  for (std::uint32_t half = 0; half < 2; ++half) {
+    Triangle& triangle = triangles[count];
+    triangle.a = even_point(geometry.lattice, light.corners[0]);
+    triangle.b = even_point(geometry.lattice, light.corners[half + 1]);
+    triangle.c = even_point(geometry.lattice, light.corners[half + 2]);
+    triangle.n = cross(triangle.b - triangle.a, triangle.c - triangle.a);
+    triangle.d = triangle.n.x * triangle.a.x + triangle.n.y * triangle.a.y + triangle.n.z * triangle.a.z;
+    if (!(triangle.n == LatticeVector{})) ++count;
+  }
+  return count;
+}
+
+}  // namespace
+
+LatticePoint sample_point(const Scene& scene, const Geometry& geometry, std::uint32_t mesh, std::uint32_t cell,
+                          const Vec3& point) {
+  static_cast<void>(scene);
+  const PolygonTriangles range = geometry.cells[geometry.first_cell[mesh] + cell];
+  return in_front(geometry.triangles.subspan(range.first, range.count), odd_point(geometry.lattice, point));
+}
+
+LatticePoint light_sample_point(const Scene& scene, const Geometry& geometry, std::uint32_t light, const Vec3& point) {
+  const LatticePoint p = odd_point(geometry.lattice, point);
+  const PolygonTriangles range = geometry.light_triangles[light];
+  if (range.count > 0) return in_front(geometry.triangles.subspan(range.first, range.count), p);
+  Triangle triangles[2];
+  const std::uint32_t count = open_light_triangles(geometry, scene.lights[light], triangles);
+  return in_front(std::span<const Triangle>(triangles, count), p);
+}
+
+}  // namespace shodo

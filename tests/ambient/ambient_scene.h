@@ -1,0 +1,153 @@
+// For tests of the ambient stage: a scene from text, placed on the lattice, with direct light that the test sets.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "ambient/ambient.h"
+#include "ambient/gauss_seidel.h"
+#include "ambient/matrix.h"
+#include "support/scene_from_text.h"
+#include "visibility/geometry.h"
+
+namespace shodo {
+
+/// The six walls of the box from 0 to (x, y, z), z up, fronts inside; patches nx, ny, nz along the axes.
+/// Order: floor, ceiling, wall y = 0, wall y = y, wall x = 0, wall x = x.
+inline std::string box_walls(double x, double y, double z, int nx, int ny, int nz, const std::string& material) {
+  const auto quad = [&](std::initializer_list<double> c, int u, int v) {
+    std::string line = "quad " + material;
+    for (const double value : c) line += " " + std::to_string(value);
+    return line + " patches " + std::to_string(u) + " " + std::to_string(v) + " sub 1 1\n";
+  };
+  std::string text;
+  text += "object floor_\n" + quad({0, 0, 0, x, 0, 0, x, y, 0, 0, y, 0}, nx, ny);
+  text += "object ceiling_\n" + quad({0, 0, z, 0, y, z, x, y, z, x, 0, z}, ny, nx);
+  text += "object wall_y0\n" + quad({0, 0, 0, 0, 0, z, x, 0, z, x, 0, 0}, nz, nx);
+  text += "object wall_y1\n" + quad({0, y, 0, x, y, 0, x, y, z, 0, y, z}, nx, nz);
+  text += "object wall_x0\n" + quad({0, 0, 0, 0, y, 0, 0, y, z, 0, 0, z}, ny, nz);
+  text += "object wall_x1\n" + quad({x, 0, 0, x, 0, z, x, y, z, x, y, 0}, nz, ny);
+  return text;
+}
+
+inline std::string grey(double rho) {
+  return "shodo 1\nmaterial white diffuse " + std::to_string(rho) + "\n";
+}
+
+/// A placed scene, unlit.
+struct AmbientScene {
+  explicit AmbientScene(const std::string& text, Options given = {}, TestFiles files = {})
+      : options(given), loaded(text, given, std::move(files)) {
+    Status status = place_scene(loaded.scene, loaded.arena, geometry);
+    EXPECT_TRUE(status.done()) << to_text(status);
+    status = build_patches(loaded.scene, geometry, loaded.arena, patches, statistics);
+    EXPECT_TRUE(status.done()) << to_text(status);
+    const std::size_t n = patches.size();
+    lux.assign(n * loaded.scene.channels, 0.0);
+    visible.assign(n, 1.0f);
+    lights.assign(n, 0.0f);
+    direct.patch_lx = lux;
+    direct.visible_area = visible;
+    direct.light_form_factor = lights;
+  }
+
+  /// E0 of every patch, all channels, by its centre in the file's coordinates and its mesh.
+  void light(const std::function<double(const Vec3&, std::uint32_t mesh)>& e0) {
+    const std::uint32_t channels = loaded.scene.channels;
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+      for (std::uint32_t c = 0; c < channels; ++c) {
+        lux[i * channels + c] = e0(patches[i].centre + loaded.scene.origin, patches[i].mesh);
+      }
+    }
+  }
+
+  Status solve() { return solve_in(loaded.arena, {}); }
+  Status solve_in(Arena& arena, const Progress& progress) {
+    Intersector intersector(geometry);
+    statistics = {};
+    return light_ambiently(loaded.scene, geometry, patches, direct, intersector, options, progress, arena, ambient,
+                           statistics);
+  }
+
+  double total(std::size_t value) const { return lux[value] + ambient.patch_lx[value]; }
+  /// The mean of E over all patches, by area; first channel.
+  double mean(bool ambient_only) const {
+    double sum = 0, area = 0;
+    const std::uint32_t channels = loaded.scene.channels;
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+      sum += patches[i].area * (ambient_only ? ambient.patch_lx[i * channels] : total(i * channels));
+      area += patches[i].area;
+    }
+    return sum / area;
+  }
+
+  Options options;
+  LoadedScene loaded;
+  Geometry geometry;
+  std::span<Patch> patches;
+  DirectLight direct;
+  AmbientLight ambient;
+  Statistics statistics;
+  std::vector<double> lux;
+  std::vector<float> visible, lights;
+};
+
+/// The stored matrix of a scene, rows all kept, as full tables by patch.
+struct StoredMatrix {
+  explicit StoredMatrix(AmbientScene& scene) : n(scene.patches.size()), matrix(scene.loaded.arena) {
+    Arena& arena = scene.loaded.arena;
+    matrix.options = &scene.options;
+    std::span<double> scratch[3];
+    Status status = gather_surfaces(scene.loaded.scene, scene.geometry, scene.patches, scene.direct, scene.options,
+                                    arena, matrix.surfaces);
+    EXPECT_TRUE(status.done());
+    const std::size_t sizes[3] = {n, n, n * scene.loaded.scene.channels};
+    for (int k = 0; k < 3; ++k) EXPECT_TRUE(arena.take("scratch", sizes[k], scratch[k]));
+    Intersector intersector(scene.geometry);
+    scene.statistics = {};
+    status = build_matrix(scene.direct, {}, arena, intersector, {scratch[0], scratch[1], scratch[2]}, matrix,
+                          scene.statistics);
+    EXPECT_TRUE(status.done());
+    EXPECT_EQ(matrix.store.rows(), n);
+    fill(intersector);
+  }
+
+  double form_factor(std::size_t i, std::size_t j) const { return f[i * n + j]; }
+  double row_sum(std::size_t i) const {
+    double sum = 0;
+    for (std::size_t j = 0; j < n; ++j) sum += f[i * n + j];
+    return sum;
+  }
+
+  std::size_t n;
+  Matrix matrix;
+  std::vector<double> f;         // F_ij, scaled
+  std::vector<double> exchange;  // G_ij V_ij as stored, symmetric
+
+ private:
+  void fill(const Intersector& intersector) {
+    f.assign(n * n, 0);
+    exchange.assign(n * n, 0);
+    const Surfaces& s = matrix.surfaces;
+    RowCursor rows(matrix, intersector);
+    const auto put = [&](std::uint32_t i, std::uint32_t j, double v) {
+      const std::size_t a = s.patch_at[i], b = s.patch_at[j];
+      exchange[a * n + b] = exchange[b * n + a] = v * s.root_area[i] * s.root_area[j];
+      f[a * n + b] = matrix.factor[i] * v * s.root_area[j];
+      f[b * n + a] = matrix.factor[j] * v * s.root_area[i];
+    };
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint16_t* row = rows.row(i);
+      if (matrix.doubles()) {
+        for (RowReader<true> e(row, i); e.next();) put(i, e.column(), e.value());
+      } else {
+        for (RowReader<false> e(row, i); e.next();) put(i, e.column(), e.value());
+      }
+    }
+  }
+};
+
+}  // namespace shodo

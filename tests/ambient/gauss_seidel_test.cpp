@@ -1,0 +1,173 @@
+#include "ambient/gauss_seidel.h"
+
+#include <cmath>
+#include <random>
+
+#include "tests/ambient/ambient_scene.h"
+
+namespace shodo {
+namespace {
+
+/// Slow and obvious: E = E0 + F rho E of the stored matrix, by elimination in long double.
+std::vector<long double> eliminated(const StoredMatrix& stored, const AmbientScene& scene, std::uint32_t c) {
+  const std::size_t n = stored.n;
+  const std::uint32_t channels = scene.loaded.scene.channels;
+  std::vector<std::vector<long double>> a(n, std::vector<long double>(n + 1));
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      const Mesh& mesh = scene.loaded.scene.meshes[scene.patches[j].mesh];
+      const double rho = scene.loaded.scene.materials[mesh.material].diffuse.c[c];
+      a[i][j] = (i == j ? 1.0L : 0.0L) - static_cast<long double>(stored.form_factor(i, j)) * rho;
+    }
+    a[i][n] = scene.lux[i * channels + c];
+  }
+  for (std::size_t k = 0; k < n; ++k) {  // diagonally dominant: no exchange of rows
+    for (std::size_t i = 0; i < n; ++i) {
+      if (i == k || a[i][k] == 0) continue;
+      const long double part = a[i][k] / a[k][k];
+      for (std::size_t j = k; j <= n; ++j) a[i][j] -= part * a[k][j];
+    }
+  }
+  std::vector<long double> e(n);
+  for (std::size_t i = 0; i < n; ++i) e[i] = a[i][n] / a[i][i];
+  return e;
+}
+
+/// The largest error against elimination over the largest illuminance, all channels.
+double true_error(AmbientScene& scene) {
+  const StoredMatrix stored(scene);
+  const std::uint32_t channels = scene.loaded.scene.channels;
+  long double worst = 0, largest = 0;
+  for (std::uint32_t c = 0; c < channels; ++c) {
+    const std::vector<long double> e = eliminated(stored, scene, c);
+    for (std::size_t i = 0; i < stored.n; ++i) {
+      worst = std::max(worst, std::abs(e[i] - static_cast<long double>(scene.total(i * channels + c))));
+      largest = std::max(largest, std::abs(e[i]));
+    }
+  }
+  return static_cast<double>(worst / largest);
+}
+
+std::string table(double z) {
+  char text[600];
+  std::snprintf(text, sizeof text,
+                "object table\nquad wood 1 1 %g 1 2 %g 3 2 %g 3 1 %g patches 2 2 sub 1 1\n"
+                "quad wood 1 1 %g 3 1 %g 3 2 %g 1 2 %g patches 2 3 sub 1 1\n",
+                z, z, z, z, z + 0.01, z + 0.01, z + 0.01, z + 0.01);
+  return text;
+}
+
+TEST(GaussSeidel, TheBoundIsNeverBelowTheTrueErrorOfTheStoredSystem) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (const double rho : {0.05, 0.5, 0.9, 0.99, 0.9999}) {
+    for (const double tolerance : {0.1, 1e-2, 1e-4, 1e-7, 1e-10}) {
+      for (const bool coloured : {false, true}) {
+        Options options;
+        options.tolerance = tolerance;
+        const std::string wood = coloured ? "material wood diffuse 0.6 0.3 0.1\n" : "material wood diffuse 0.3\n";
+        AmbientScene scene(grey(rho) + wood + box_walls(4, 3, 2.5, 3, 2, 3, "white") + table(0.7), options);
+        scene.light([&](const Vec3&, std::uint32_t) { return unit(random) < 0.3 ? 1000 * unit(random) : 0; });
+        ASSERT_TRUE(scene.solve().done());
+        const Statistics statistics = scene.statistics;
+        EXPECT_EQ(scene.loaded.scene.channels, coloured ? 3u : 1u);
+        // Rounding is bounded by (n + 16) 2^-52 / (1 - rho), here up to 3e-10: nothing below that is promised.
+        EXPECT_LE(statistics.solution_bound, std::max(tolerance, 3e-10)) << rho << " in " << statistics.sweeps;
+        // Elimination in long double is itself off by a few 1e-19 / (1 - rho).
+        EXPECT_LE(true_error(scene), statistics.solution_bound + 1e-15) << rho << ", " << tolerance;
+        EXPECT_LT(statistics.sweeps, 60u) << rho << ", " << tolerance;
+      }
+    }
+  }
+}
+
+TEST(GaussSeidel, SweepsAreThoseOfTheTextbook) {
+  // Two sweeps without a correction between are not to be had, so one: tolerance 1e9 stops after the first.
+  Options options;
+  options.tolerance = 1e9;
+  AmbientScene scene(grey(0.8) + box_walls(2, 3, 1, 2, 3, 2, "white"), options);
+  scene.light([](const Vec3& p, std::uint32_t m) { return m == 1 ? 100 * p.x : 10.0; });
+  ASSERT_TRUE(scene.solve().done());
+  EXPECT_EQ(scene.statistics.sweeps, 1u);
+  const StoredMatrix stored(scene);
+  std::vector<double> e(scene.lux);
+  for (std::uint32_t position = 0; position < stored.n; ++position) {
+    const std::size_t i = stored.matrix.surfaces.patch_at[position];
+    double sum = 0;
+    for (std::size_t j = 0; j < stored.n; ++j) sum += stored.form_factor(i, j) * 0.8 * e[j];
+    e[i] = scene.lux[i] + sum;
+  }
+  for (std::size_t i = 0; i < stored.n; ++i) EXPECT_NEAR(scene.total(i), e[i], 1e-12 * e[i]);
+}
+
+TEST(GaussSeidel, FurnaceGivesE0OverOneMinusRho) {
+  for (const double rho : {0.1, 0.5, 0.9, 0.99, 0.9999}) {
+    Options options;
+    options.tolerance = 1e-9;
+    AmbientScene scene(grey(rho) + box_walls(3, 2, 1, 3, 4, 2, "white"), options);
+    scene.light([](const Vec3&, std::uint32_t) { return 50.0; });
+    ASSERT_TRUE(scene.solve().done());
+    // Every row is scaled to 1, so the answer is flat, whatever the form factors.
+    for (std::size_t i = 0; i < scene.patches.size(); ++i) {
+      EXPECT_NEAR(scene.total(i) * (1 - rho) / 50, 1, 1e-6) << rho;
+    }
+  }
+}
+
+TEST(GaussSeidel, FurnaceOfOneStoredRowSumGivesE0OverOneMinusRhoTimesThatSum) {
+  // A cube of six patches: all rows have one sum s by symmetry, which isn't 1 without scaling.
+  Options options;
+  options.scale_rows = false;
+  options.tolerance = 1e-9;
+  AmbientScene scene(grey(0.95) + box_walls(1, 1, 1, 1, 1, 1, "white"), options);
+  scene.light([](const Vec3&, std::uint32_t) { return 50.0; });
+  ASSERT_TRUE(scene.solve().done());
+  const StoredMatrix stored(scene);
+  const double s = stored.row_sum(0);
+  EXPECT_NE(s, 1);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(scene.total(i) * (1 - 0.95 * s) / 50, 1, 1e-6);
+}
+
+TEST(GaussSeidel, NearlyWhiteRoomsNeedFewSweeps) {
+  for (const int n : {2, 5, 8}) {
+    AmbientScene scene(grey(0.9999) + box_walls(6, 4, 3, n, n, n, "white"));
+    scene.light([](const Vec3& p, std::uint32_t m) { return m == 0 && p.x < 2 ? 1000.0 : 0; });
+    ASSERT_TRUE(scene.solve().done());
+    EXPECT_LE(scene.statistics.solution_bound, 1e-4);
+    EXPECT_LT(scene.statistics.sweeps, 20u) << n;
+  }
+}
+
+TEST(GaussSeidel, AToleranceBeyondRoundingEndsAndTellsTheBoundReached) {
+  Options options;
+  options.tolerance = 1e-30;
+  AmbientScene scene(grey(0.9999) + box_walls(1, 1, 1, 3, 3, 3, "white"), options);
+  scene.light([](const Vec3&, std::uint32_t m) { return m == 0 ? 1000.0 : 0; });
+  ASSERT_TRUE(scene.solve().done());
+  EXPECT_LT(scene.statistics.sweeps, 100u);
+  const double bound = scene.statistics.solution_bound;
+  EXPECT_LT(bound, 1e-8);
+  EXPECT_LE(true_error(scene), bound);
+}
+
+TEST(GaussSeidel, RowsAboveOneThatAreNotScaledEndWithoutABound) {
+  Options options;
+  options.scale_rows = false;
+  options.tiers = 0.5;  // far kernels between neighbours: sums well above 1
+  AmbientScene scene(grey(0.9999) + box_walls(1, 1, 1, 2, 2, 2, "white"), options);
+  scene.light([](const Vec3&, std::uint32_t) { return 1.0; });
+  ASSERT_TRUE(scene.solve().done());
+  EXPECT_LT(scene.statistics.sweeps, 200u);
+  EXPECT_EQ(scene.statistics.solution_bound, kNoBound);
+  for (const double lx : scene.ambient.patch_lx) EXPECT_TRUE(std::isfinite(lx));
+}
+
+TEST(GaussSeidel, DarknessStaysDarkness) {
+  AmbientScene scene(grey(0.5) + box_walls(1, 1, 1, 2, 2, 2, "white"));
+  ASSERT_TRUE(scene.solve().done());
+  for (const double lx : scene.ambient.patch_lx) EXPECT_EQ(lx, 0);
+  EXPECT_EQ(scene.statistics.solution_bound, 0);
+}
+
+}  // namespace
+}  // namespace shodo

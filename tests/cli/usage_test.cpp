@@ -1,0 +1,171 @@
+// Words on the command line: what is taken, what is refused and how.
+#include <gtest/gtest.h>
+
+#include "cli/program.h"
+
+namespace shodo {
+namespace {
+
+using testing::Test;
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(CommandLine, HelpNamesEveryOptionOfTheContractAndNoReport) {
+  const Outcome help = run({"--help"});
+  EXPECT_EQ(help.status, 0);
+  EXPECT_EQ(help.err, "");
+  for (const char* word :
+       {"render",  "map",         "check",    "-o",      "--memory",   "--flags",      "--rules",       "--tolerance",
+        "--patch", "--sub-patch", "--refine", "--tiers", "--segments", "--scale-rows", "--interpolate", "--row-values",
+        "--size",  "--antialias", "--camera", "--csv",   "--stats",    "--quiet",      "--help",        "--version"}) {
+    EXPECT_TRUE(contains(help.out, word)) << word;
+  }
+  EXPECT_FALSE(contains(help.out, "report"));
+  EXPECT_EQ(run({"render", "--help"}).out, help.out);
+}
+
+TEST(CommandLine, VersionIsOneLine) {
+  const Outcome version = run({"--version"});
+  EXPECT_EQ(version.status, 0);
+  EXPECT_EQ(version.out, "shodo 0.1.0\n");
+}
+
+struct Mistake {
+  Running::Words words;
+  std::string said;
+};
+
+TEST(CommandLine, EveryMistakeEndsWithStatus2AndOneLineThatNamesIt) {
+  const std::string scene = test_scene("sun.scn");
+  const auto render = [&](Running::Words more) {
+    Running::Words words{"render", scene, "-o", "x.ppm"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  const Mistake mistakes[] = {
+      {{}, "expected a command"},
+      {{"paint"}, "'paint'"},
+      {{"report", scene, "-o", "x"}, "report is not available yet"},
+      {{"render"}, "expected a scene file"},
+      {{"render", scene}, "expected -o"},
+      {{"render", "-", "-o", "x.ppm"}, "'-'"},
+      {{"map", scene}, "expected -o"},
+      {{"map", scene, "-o", "-"}, "expected the name of a folder"},
+      {{"render", scene, scene, "-o", "x.ppm"}, "expected one scene"},
+      {{"render", scene, "-o", "x.jpg"}, ".png or .ppm"},
+      {{"render", scene, "-o", ".png"}, ".png or .ppm"},
+      {{"render", scene, "-o", "-"}, ".png or .ppm"},
+      {{"render", scene, "-o"}, "-o: expected a name, found nothing"},
+      {{"render", scene, "-o", "--quiet"}, "-o: expected a name, found nothing"},
+      {{"check", scene, "-o", "x.ppm"}, "-o has no meaning for check"},
+      {{"check", scene, "--csv", "x"}, "--csv has no meaning for check"},
+      {{"map", scene, "-o", "m", "--size", "8x8"}, "--size has no meaning for map"},
+      {{"map", scene, "-o", "m", "--antialias", "4"}, "--antialias has no meaning for map"},
+      {{"map", scene, "-o", "m", "--camera", "main"}, "--camera has no meaning for map"},
+      {render({"--colour"}), "unknown option '--colour'"},
+      {render({"--sizes", "8x8"}), "unknown option '--sizes'"},
+      {render({"-q"}), "unknown option '-q'"},
+      {render({"--quiet=yes"}), "--quiet takes no value"},
+      {render({"--size", "8x8", "--size", "8x8"}), "--size is given twice"},
+      {render({"--memory"}), "--memory: expected"},
+      {render({"--memory", "8m"}), "found '8m'"},
+      {render({"--memory", "0"}), "found '0'"},
+      {render({"--memory", "-1"}), "found '-1'"},
+      {render({"--memory", "1.5M"}), "found '1.5M'"},
+      {render({"--memory", "M"}), "found 'M'"},
+      {render({"--memory", ""}), "found ''"},
+      {render({"--memory", "99999999999999999999"}), "--memory: expected"},
+      {render({"--memory", "1025G"}), "--memory: expected"},
+      {render({"--flags", "auto"}), "not available yet"},
+      {render({"--flags", "scene"}), "not available yet"},
+      {render({"--flags", "on"}), "--flags: expected off"},
+      {render({"--rules", "all"}), "not available yet"},
+      {render({"--rules", "1,2"}), "not available yet"},
+      {render({"--tolerance", "0"}), "found '0'"},
+      {render({"--tolerance", "1e-13"}), "--tolerance: expected a number from 1e-12 to 1"},
+      {render({"--tolerance", "nan"}), "found 'nan'"},
+      {render({"--tolerance", "1e-4x"}), "found '1e-4x'"},
+      {render({"--patch", "-1"}), "--patch: expected"},
+      {render({"--patch", "0"}), "--patch: expected"},
+      {render({"--patch", "inf"}), "--patch: expected"},
+      {render({"--sub-patch", "1,5"}), "--sub-patch: expected"},
+      {render({"--refine", "0"}), "--refine: expected"},
+      {render({"--refine", "1001"}), "--refine: expected"},
+      {render({"--tiers", "far"}), "--tiers: expected near, or a number"},
+      {render({"--tiers", "2"}), "--tiers: expected"},
+      {render({"--segments", "16"}), "--segments: expected"},
+      {render({"--segments", "64,16"}), "--segments: expected"},
+      {render({"--segments", "16,32"}), "--segments: expected"},
+      {render({"--segments", "16,64,256"}), "--segments: expected"},
+      {render({"--scale-rows", "yes"}), "--scale-rows: expected on or off"},
+      {render({"--interpolate", "1"}), "--interpolate: expected on or off"},
+      {render({"--row-values", "32"}), "--row-values: expected 16 or 64"},
+      {render({"--size", "640"}), "--size: expected"},
+      {render({"--size", "0x8"}), "--size: expected"},
+      {render({"--size", "8x16385"}), "--size: expected"},
+      {render({"--size", "8X8"}), "--size: expected"},
+      {render({"--size", "-8x8"}), "--size: expected"},
+      {render({"--size", "8x8x8"}), "--size: expected"},
+      {render({"--antialias", "2"}), "--antialias: expected 1, 4 or 16"},
+      {render({"--camera", ""}), "--camera: expected"},
+      {render({"--csv", ""}), "--csv: expected"},
+      {render({"--csv", "-", "--stats", "-"}), "two outputs"},
+      {render({"--csv", "x.ppm"}), "two outputs"},
+      {render({"--stats", "x.ppm"}), "two outputs"},
+  };
+  const TestFolder folder;
+  for (const Mistake& mistake : mistakes) {
+    const Outcome outcome = run(mistake.words, folder.path());
+    const std::string shown = testing::PrintToString(mistake.words);
+    EXPECT_EQ(outcome.status, 2) << shown;
+    EXPECT_EQ(outcome.out, "") << shown;
+    EXPECT_TRUE(contains(outcome.err, mistake.said)) << shown << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "(see shodo --help)")) << shown << outcome.err;
+    EXPECT_EQ(lines_of(outcome.err).size(), 1u) << shown;
+  }
+  EXPECT_TRUE(folder.entries().empty());
+}
+
+TEST(CommandLine, EveryOptionIsTakenAtBothEndsOfItsRange) {
+  const std::string scene = test_scene("sun.scn");
+  const std::vector<Running::Words> options = {
+      {"--memory", "640K"},    {"--memory", "8M"},        {"--memory", "1G"},        {"--memory", "1000000"},
+      {"--memory=1024G"},      {"--flags", "off"},        {"--rules", "none"},       {"--tolerance", "1e-12"},
+      {"--tolerance", "1"},    {"--patch", "0.25"},       {"--sub-patch", ".1"},     {"--refine", "0.001"},
+      {"--refine", "4"},       {"--tiers", "near"},       {"--tiers", "1e-9"},       {"--tiers", "1"},
+      {"--segments", "1,1"},   {"--segments", "256,256"}, {"--segments", "1,64"},    {"--scale-rows", "on"},
+      {"--scale-rows", "off"}, {"--interpolate", "on"},   {"--interpolate", "off"},  {"--row-values", "16"},
+      {"--row-values", "64"},  {"--size", "1x1"},         {"--size", "16384x16384"}, {"--antialias", "1"},
+      {"--antialias", "4"},    {"--antialias", "16"},     {"--camera", "side"},      {"--quiet"}};
+  for (const Running::Words& option : options) {
+    Running::Words words{"check", scene};
+    words.insert(words.end(), option.begin(), option.end());
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 0) << option[0] << outcome.err;
+    EXPECT_EQ(outcome.err, "") << option[0];
+  }
+}
+
+TEST(CommandLine, OptionsMayComeBeforeTheCommandAndWithAnEqualsSign) {
+  const TestFolder folder;
+  const Outcome outcome =
+      run({"--size=4x3", "--quiet", "render", "-o=x.ppm", test_scene("sun.scn"), "-o", "y.ppm"}, folder.path());
+  EXPECT_EQ(outcome.status, 2) << "-o takes no equals sign";
+  EXPECT_EQ(run({"--size=4x3", "--quiet", "render", "-o", "x.ppm", test_scene("sun.scn")}, folder.path()).status, 0);
+  EXPECT_EQ(file_text(folder / "x.ppm").substr(0, 11), "P6\n4 3\n255\n");
+}
+
+TEST(CommandLine, ACameraThatTheSceneLacksIsNamedWithThoseItHas) {
+  const TestFolder folder;
+  for (const Running::Words& words :
+       {Running::Words{"check", test_scene("sun.scn"), "--camera", "roof"},
+        Running::Words{"render", test_scene("sun.scn"), "-o", "x.ppm", "--camera", "roof"}}) {
+    const Outcome outcome = run(words, folder.path());
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_TRUE(contains(outcome.err, "main, side") && contains(outcome.err, "'roof'")) << outcome.err;
+  }
+  EXPECT_TRUE(folder.entries().empty());
+}
+
+}  // namespace
+}  // namespace shodo

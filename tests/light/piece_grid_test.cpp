@@ -1,0 +1,115 @@
+// The fixed samples on a piece: where they are, what they stand for.
+#include "light/piece_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace shodo {
+namespace {
+
+Piece quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  Piece piece;
+  piece.corner[0] = a;
+  piece.corner[1] = b;
+  piece.corner[2] = c;
+  piece.corner[3] = d;
+  return piece;
+}
+
+Piece triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  Piece piece = quad(a, b, c, c);
+  piece.corners = 3;
+  return piece;
+}
+
+/// Weighted mean of a linear function and, as a check of the weights, of 1.
+Vec3 mean(const PieceGrid& grid) {
+  Vec3 sum;
+  double weight = 0;
+  for (std::uint32_t k = 0; k < grid.count(); ++k) {
+    sum = sum + grid.weight(k) * grid.point(k);
+    weight += grid.weight(k);
+  }
+  return (1 / weight) * sum;
+}
+
+void expect_near(const Vec3& a, const Vec3& b, double error) {
+  EXPECT_NEAR(a.x, b.x, error);
+  EXPECT_NEAR(a.y, b.y, error);
+  EXPECT_NEAR(a.z, b.z, error);
+}
+
+TEST(PieceGrid, HasTheCentresOfEqualCells) {
+  const Piece piece = quad({0, 0, 1}, {4, 0, 1}, {4, 2, 1}, {0, 2, 1});
+  const PieceGrid grid(piece, 4);
+  ASSERT_EQ(grid.count(), 16u);
+  expect_near(grid.point(0), {0.5, 0.25, 1}, 1e-15);
+  expect_near(grid.point(6), {2.5, 0.75, 1}, 1e-15);
+  for (std::uint32_t k = 0; k < 16; ++k) EXPECT_EQ(grid.weight(k), 1);
+  EXPECT_EQ(grid.centre_weight(), 1);
+}
+
+TEST(PieceGrid, HasTheCentroidsOfEqualTriangles) {
+  const Piece piece = triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0});
+  const PieceGrid grid(piece, 4);
+  ASSERT_EQ(grid.count(), 16u);
+  expect_near(grid.point(0), {1.0 / 3, 1.0 / 3, 0}, 1e-15);
+  expect_near(grid.point(1), {2.0 / 3, 2.0 / 3, 0}, 1e-15);  // on its tip
+  expect_near(grid.point(15), {1.0 / 3, 3 + 1.0 / 3, 0}, 1e-15);
+  expect_near(mean(grid), piece.centre(), 1e-14);
+}
+
+TEST(PieceGrid, NamesTheSamplesNextToTheCorners) {
+  const Piece four = quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}),
+              three = triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  const PieceGrid square(four, 4), half(three, 4);
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    expect_near(square.point(square.corner(k)), {k % 2 == 0 ? 0.125 : 0.875, k / 2 == 0 ? 0.125 : 0.875, 0}, 1e-15);
+  }
+  const Vec3 corner[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  ASSERT_EQ(half.corner_count(), 3u);
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const Vec3 expected = three.centre() + 0.75 * (corner[k] - three.centre());
+    expect_near(half.point(half.corner(k)), expected, 1e-15);
+  }
+}
+
+TEST(PieceGrid, KeepsToTheMiddleHalfWhenAsked) {
+  const Piece four = quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}),
+              three = triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  for (const Piece& piece : {four, three}) {
+    const PieceGrid wide(piece, 4), narrow(piece, 4, true);
+    for (std::uint32_t k = 0; k < 16; ++k) {
+      expect_near(narrow.point(k), 0.5 * (piece.centre() + wide.point(k)), 1e-15);
+    }
+  }
+}
+
+TEST(PieceGrid, WeightsATrapezoidByArea) {
+  // The centroid of a trapezoid of sides 6 and 2 and height 3 lies 3/3 (6 + 4)/(6 + 2) from the longer one; midpoints
+  // of four rows miss the second moment by 1/16.
+  const Piece piece = quad({-3, 0, 0}, {3, 0, 0}, {1, 3, 0}, {-1, 3, 0});
+  expect_near(mean(PieceGrid(piece, 4)), {0, 1.25, 0}, 0.02);
+  expect_near(mean(PieceGrid(piece, 64)), {0, 1.25, 0}, 1e-4);
+  double sum = 0;
+  const PieceGrid grid(piece, 4);
+  for (std::uint32_t k = 0; k < 16; ++k) sum += grid.weight(k);
+  EXPECT_NEAR(sum / 16, 12, 1e-12);
+}
+
+TEST(PieceGrid, WeightsTheHalvesOfAConcavePiece) {
+  // Reflex at corner 1; the cut from there to corner 3 leaves halves of 1.5 and 4.5. Then the same counted from
+  // corner 3.
+  const Vec3 c[4] = {{-1, 2, 0}, {0, 0, 0}, {3, 2, 0}, {0, -3, 0}};
+  Piece from_1_to_3 = quad(c[0], c[1], c[2], c[3]), from_0_to_2 = quad(c[3], c[0], c[1], c[2]);
+  from_1_to_3.concave = from_1_to_3.cut = from_0_to_2.cut = true;
+  const Vec3 first = (1.0 / 3) * (c[0] + c[1] + c[3]), second = (1.0 / 3) * (c[2] + c[1] + c[3]);
+  for (const Piece& piece : {from_1_to_3, from_0_to_2}) {
+    expect_near(mean(PieceGrid(piece, 4)), 0.25 * first + 0.75 * second, 0.1);  // the cut runs through samples
+    expect_near(mean(PieceGrid(piece, 64)), 0.25 * first + 0.75 * second, 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace shodo
