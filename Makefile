@@ -1,4 +1,4 @@
-# shodo: `make` builds build/shodo. Other targets: rooms, test, check-same-bytes, install, install-needs, clean.
+# shodo: `make` builds build/shodo. Other targets: rooms, test, check-same-bytes, workstation, install, install-needs, clean.
 #
 # Settings, on the command line of make:
 #   CXX=clang++ OPT=-O0   another compiler or optimisation; what was built with other flags is built again
@@ -77,6 +77,10 @@ install: $(BUILD)/shodo
 	mkdir -p $(DESTDIR)$(PREFIX)/bin
 	install -m 755 $(BUILD)/shodo $(DESTDIR)$(PREFIX)/bin/shodo
 
+# Both rooms in the seconds of the paper's workstation, counted under QEMU: out/workstation.json.
+workstation:
+	@sh tools/workstation $(WORKSTATION_OPTIONS)
+
 install-needs:
 	sh tools/install-needs test
 
@@ -84,7 +88,7 @@ clean:
 	rm -rf $(BUILD) $(OUT)
 
 FORCE:
-.PHONY: all rooms test check-same-bytes install install-needs clean FORCE
+.PHONY: all rooms test check-same-bytes workstation install install-needs clean FORCE
 .SECONDARY:
 
 -include $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(TEST_OBJECTS:.o=.d)

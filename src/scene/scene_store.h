@@ -53,7 +53,9 @@ class SceneStore {
   std::uint32_t find_light(std::string_view name) const { return find(scene_.lights, counts_.lights, name); }
   std::uint32_t find_camera(std::string_view name) const { return find(scene_.cameras, counts_.cameras, name); }
   /// While storing; the zero vector beyond the block.
-  Vec3 vertex(std::uint64_t index) const { return index < scene_.vertices.size() ? scene_.vertices[index] : Vec3{}; }
+  Vec3 vertex(std::uint64_t index) const {
+    return index < scene_.vertices.size() ? scene_.vertices[static_cast<std::size_t>(index)] : Vec3{};
+  }
 
  private:
   template <class T>
@@ -63,7 +65,7 @@ class SceneStore {
         overflowed_ = true;
         return;
       }
-      block[count] = value;
+      block[static_cast<std::size_t>(count)] = value;
     }
     ++count;
   }
