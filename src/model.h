@@ -26,6 +26,7 @@ struct Model {
   Scene scene;
   Geometry geometry;
   std::span<Patch> patches;
+  FlagTables flags;                // of paper 3.1, and what was found; empty with flags off
   DirectLight direct;
   AmbientLight ambient;
   IlluminanceMaps maps;

@@ -74,13 +74,15 @@ Status load_and_place(std::string_view name, std::string_view text, const Reader
 }
 
 Status light_and_map(Model& model, const Progress& progress) {
-  Intersector intersector(model.geometry);
+  Intersector intersector(model.geometry, model.scene, model.options.flags);
+  if (!intersector.take_flags(model.arena)) return model.arena.refused();
   Status status = light_directly(model.scene, model.geometry, model.patches, intersector, progress, model.arena,
                                  model.direct, model.statistics);
   if (!status.done()) return status;
   status = light_ambiently(model.scene, model.geometry, model.patches, model.direct, intersector, model.options,
                            progress, model.arena, model.ambient, model.statistics);
   if (!status.done()) return status;
+  model.flags = intersector.flags();
   if (!progress.go_on(Stage::kMap, 0, 1)) return interrupted();
   return map_illuminance(model.scene, model.patches, model.direct, model.ambient, model.options, model.arena,
                          model.maps);

@@ -29,7 +29,15 @@ struct Statistics {
   std::uint32_t rows_scaled = 0;
   std::uint32_t rows_kept = 0;
   std::uint32_t rows_recomputed = 0;
-  std::uint32_t sweeps = 0;
+  std::uint64_t links = 0;                // stored entries: pairs of patches, patches and meshes (rule 3), or blocks
+  std::uint64_t block_links = 0;          // those of which an end is a mesh or a block
+  std::uint32_t blocks = 0;               // of all meshes, whole meshes included
+  std::uint32_t rows_emptied = 0;         // by rule 1
+  std::uint32_t columns_emptied = 0;      // by rule 2, in the end
+  std::uint32_t columns_restored = 0;     // by rule 2+
+  std::uint32_t rule2_rounds = 0;         // solutions after the first that rule 2+ needed
+  double rule2_bound_lx = 0;              // rule 2: no illuminance is too small by more
+  std::uint32_t sweeps = 0;               // of all solutions
   double solution_bound = 0;              // certified, of the largest illuminance
   std::uint64_t memory_budget = 0;        // bytes
   std::uint64_t memory_peak = 0;

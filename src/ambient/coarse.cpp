@@ -41,6 +41,11 @@ std::uint32_t Coarse::group_of_mesh(std::uint32_t k) const {
   return static_cast<std::uint32_t>(std::uint64_t{k} * groups_ / meshes_);
 }
 
+void Coarse::forget() {
+  for (float& exchange : exchange_) exchange = 0;
+  for (double& weight : weight_) weight = 0;
+}
+
 void Coarse::start_sweep() {
   for (double& change : change_) change = 0;
 }

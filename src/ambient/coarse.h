@@ -31,6 +31,8 @@ class Coarse {
   static std::uint64_t bytes(const Scene& scene);
   static std::uint32_t group_count(const Scene& scene);
 
+  /// Starts over with the sums.
+  void forget();
   std::uint32_t groups() const { return groups_; }
   /// Of mesh_at[k].
   std::uint32_t group_of_mesh(std::uint32_t k) const;

@@ -62,41 +62,117 @@ void update(Run& run, std::uint32_t i, std::uint32_t group, const double* reflec
     const double change = ambient - run.solver.ambient_lx[at];
     const double total = run.direct.patch_lx[at] + ambient;
     run.solver.ambient_lx[at] = ambient;
-    run.solver.sent[std::size_t{i} * kChannels + c] = reflectance[c] * root * total;
+    run.solver.sent[std::size_t{i} * kChannels + c] = run.matrix.sparsity.sends(i) ? reflectance[c] * root * total : 0;
     run.matrix.coarse.add_change(group, c, root * root, change);
     if (magnitude(change) > result.change[c]) result.change[c] = magnitude(change);
     if (magnitude(total) > result.largest[c]) result.largest[c] = magnitude(total);
   }
 }
 
+/// What a block gathered goes to its parts.
+template <std::uint32_t kChannels>
+void hand_down(Run& run, std::uint32_t b, const double* sum) {
+  const Surfaces& surfaces = run.matrix.surfaces;
+  for (std::uint32_t child = b + 1; child < surfaces.end(b); child = surfaces.end(child)) {
+    const double share = surfaces.share(child, b);
+    double* to = &run.solver.gathered[std::size_t{child} * kChannels];
+    for (std::uint32_t c = 0; c < kChannels; ++c) to[c] += share * sum[c];
+  }
+}
+
+/// What the blocks among the nodes from `begin` to `end` send: the sum of their parts.
+void sum_up(Run& run, std::uint32_t begin, std::uint32_t end) {
+  const Surfaces& surfaces = run.matrix.surfaces;
+  const std::uint32_t channels = surfaces.scene->channels;
+  for (std::uint32_t b = end; b-- > begin;) {
+    if (!surfaces.is_block(b) || !(surfaces.root_area[b] > 0)) continue;
+    double* sent = &run.solver.sent[std::size_t{b} * channels];
+    for (std::uint32_t c = 0; c < channels; ++c) sent[c] = 0;
+    for (std::uint32_t child = b + 1; child < surfaces.end(b); child = surfaces.end(child)) {
+      const double share = surfaces.share(child, b);
+      const double* from = &run.solver.sent[std::size_t{child} * channels];
+      for (std::uint32_t c = 0; c < channels; ++c) sent[c] += share * from[c];
+    }
+  }
+}
+
+/// One sweep as it goes on.
+struct SweepState {
+  RowCursor rows[kGenerations];
+  Intersector uncounted;
+  SweepResult result;
+};
+
+/// Node i gathers; a patch gets its new value and sends it on, a block hands down what it gathered.
+template <bool kDoubles, std::uint32_t kChannels>
+void sweep_node(Run& run, SweepState& state, std::uint32_t i, const MeshWalk& at_i) {
+  Matrix& matrix = run.matrix;
+  double sum[kChannels];
+  double* gathered = &run.solver.gathered[std::size_t{i} * kChannels];
+  for (std::uint32_t c = 0; c < kChannels; ++c) {
+    sum[c] = gathered[c];
+    gathered[c] = 0;
+  }
+  const std::uint16_t* row[kGenerations];
+  std::uint32_t in_scratch = kGenerations;  // the generation whose row lies there
+  for (std::uint8_t g = 0; g < matrix.generations(); ++g) {
+    row[g] = state.rows[g].row(matrix, state.uncounted, i);
+    if (!matrix.keeps(g, i)) in_scratch = g;
+    gather<kDoubles, kChannels>(row[g], i, run.solver.sent.data(), sum);
+  }
+  if (matrix.surfaces.is_block(i)) return hand_down<kChannels>(run, i, sum);
+  update<kChannels>(run, i, matrix.coarse.group_of_mesh(at_i.place()), at_i.reflectance(), sum, state.result);
+  // No column is in two generations, so their order doesn't matter: the last, if it isn't kept, is still at hand.
+  for (std::uint32_t g = matrix.generations(); g-- > 0;) {
+    if (!matrix.keeps(g, i) && g != in_scratch) row[g] = state.rows[g].row(matrix, state.uncounted, i);
+    scatter<kDoubles, kChannels>(row[g], i, &run.solver.sent[std::size_t{i} * kChannels], run.solver.gathered.data());
+  }
+}
+
+/// The blocks of a mesh send, from its first node on; `rows` stand there.
+template <bool kDoubles, std::uint32_t kChannels>
+void send_blocks(Run& run, SweepState& state, RowCursor* rows, std::uint32_t begin, std::uint32_t end) {
+  Matrix& matrix = run.matrix;
+  sum_up(run, begin, end);
+  for (std::uint32_t i = begin; i < end; ++i) {
+    for (std::uint8_t g = 0; g < matrix.generations(); ++g) {
+      if (!matrix.surfaces.is_block(i) || !(matrix.surfaces.root_area[i] > 0)) {
+        rows[g].skip(matrix, i);
+        continue;
+      }
+      scatter<kDoubles, kChannels>(rows[g].row(matrix, state.uncounted, i), i,
+                                   &run.solver.sent[std::size_t{i} * kChannels], run.solver.gathered.data());
+    }
+  }
+}
+
 template <bool kDoubles, std::uint32_t kChannels>
 SweepResult sweep(Run& run) {
-  const Surfaces& surfaces = run.matrix.surfaces;
+  Matrix& matrix = run.matrix;
+  const Surfaces& surfaces = matrix.surfaces;
   const std::uint32_t n = surfaces.size();
-  SweepResult result;
-  RowCursor rows(run.matrix, run.intersector);
+  SweepState state{{}, run.intersector, {}};
+  RowCursor at_mesh[kGenerations];
+  for (std::uint8_t g = 0; g < matrix.generations(); ++g) state.rows[g] = RowCursor(matrix, g);
   MeshWalk at_i(surfaces, 0);
-  run.matrix.coarse.start_sweep();
+  matrix.coarse.start_sweep();
   for (std::uint32_t i = 0; i < n; ++i) {
-    const bool kept = i < run.matrix.store.rows();
-    if ((!kept || i % 256 == 0) && !run.progress.go_on(Stage::kSolution, i, n)) {
-      result.finished = false;
-      return result;
+    if ((!matrix.keeps(matrix.sparsity.now(), i) || i % 256 == 0) && !run.progress.go_on(Stage::kSolution, i, n)) {
+      state.result.finished = false;
+      return state.result;
     }
-    const std::uint16_t* row = rows.row(i);
-    if (!(surfaces.root_area[i] > 0)) continue;
     at_i.go_to(i);
-    double sum[kChannels];
-    double* gathered = &run.solver.gathered[std::size_t{i} * kChannels];
-    for (std::uint32_t c = 0; c < kChannels; ++c) {
-      sum[c] = gathered[c];
-      gathered[c] = 0;
+    const std::uint32_t begin = surfaces.mesh_begin[at_i.place()], end = surfaces.mesh_begin[at_i.place() + 1];
+    const bool blocks = surfaces.is_block(begin);
+    for (std::uint8_t g = 0; blocks && i == begin && g < matrix.generations(); ++g) at_mesh[g] = state.rows[g];
+    if (surfaces.root_area[i] > 0) {
+      sweep_node<kDoubles, kChannels>(run, state, i, at_i);
+    } else {
+      for (std::uint8_t g = 0; g < matrix.generations(); ++g) state.rows[g].skip(matrix, i);
     }
-    gather<kDoubles, kChannels>(row, i, run.solver.sent.data(), sum);
-    update<kChannels>(run, i, run.matrix.coarse.group_of_mesh(at_i.place()), at_i.reflectance(), sum, result);
-    scatter<kDoubles, kChannels>(row, i, &run.solver.sent[std::size_t{i} * kChannels], run.solver.gathered.data());
+    if (blocks && i + 1 == end) send_blocks<kDoubles, kChannels>(run, state, at_mesh, begin, end);
   }
-  return result;
+  return state.result;
 }
 
 SweepResult sweep_once(Run& run) {
@@ -108,17 +184,19 @@ SweepResult sweep_once(Run& run) {
 /// rho_i R_i (E0_i + a_i) of every patch, with the correction of its group added to a_i first. Light is never negative.
 void correct_and_send(Run& run, std::uint32_t c) {
   const Surfaces& surfaces = run.matrix.surfaces;
+  const Sparsity& sparsity = run.matrix.sparsity;
   const std::uint32_t channels = surfaces.scene->channels;
   MeshWalk at(surfaces, 0);
   for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
-    if (!(surfaces.root_area[i] > 0)) continue;
+    if (surfaces.is_block(i) || !(surfaces.root_area[i] > 0)) continue;
     at.go_to(i);
     const std::size_t patch = std::size_t{surfaces.patch_at[i]} * channels + c;
     double& ambient = run.solver.ambient_lx[patch];
-    ambient += run.solver.group_delta[run.matrix.coarse.group_of_mesh(at.place())];
+    if (sparsity.receives(i)) ambient += run.solver.group_delta[run.matrix.coarse.group_of_mesh(at.place())];
     if (ambient < 0) ambient = 0;
+    const double total = run.direct.patch_lx[patch] + ambient;
     run.solver.sent[std::size_t{i} * channels + c] =
-        at.reflectance()[c] * surfaces.root_area[i] * (run.direct.patch_lx[patch] + ambient);
+        sparsity.sends(i) ? at.reflectance()[c] * surfaces.root_area[i] * total : 0;
   }
 }
 
@@ -129,18 +207,22 @@ void correct(Run& run) {
                             run.solver.group_delta);
     correct_and_send(run, c);
   }
+  sum_up(run, 0, run.matrix.surfaces.size());
 }
 
-/// Areas and mean reflectances of the groups; every patch sends its direct light.
+/// Areas and mean reflectances of the groups; every patch sends the light it has.
 void prepare(Run& run) {
   const Surfaces& surfaces = run.matrix.surfaces;
   const std::uint32_t groups = run.matrix.coarse.groups(), channels = surfaces.scene->channels;
   Solver& solver = run.solver;
-  for (double& value : solver.ambient_lx) value = 0;
   for (double& value : solver.sent) value = 0;
+  for (double& value : solver.group_area) value = 0;
+  for (double& value : solver.group_reflectance) value = 0;
+  for (double& value : solver.group_delta) value = 0;
   MeshWalk at(surfaces, 0);
   for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
     at.go_to(i);
+    if (surfaces.is_block(i)) continue;
     const std::uint32_t g = run.matrix.coarse.group_of_mesh(at.place());
     const double area = surfaces.root_area[i] * surfaces.root_area[i];
     solver.group_area[g] += area;
@@ -154,6 +236,7 @@ void prepare(Run& run) {
     }
   }
   for (std::uint32_t c = 0; c < channels; ++c) correct_and_send(run, c);
+  sum_up(run, 0, surfaces.size());
 }
 
 /// The certified bound relative to the largest illuminance, and the part of it that no sweep takes away.

@@ -7,14 +7,18 @@
 // and then it sends its new value to those. All channels go in one pass. After a sweep each mesh is corrected by one
 // value (ambient/coarse.h).
 //
+// Blocks send and gather like patches (ambient/matrix.h): before the patches of a mesh get their new values, what its
+// blocks have gathered is handed down to them; after the last of them, what they send is summed up to the blocks, which
+// then send it on. No link has both ends in one mesh unless both are patches, so this is still Gauss-Seidel, mesh by mesh.
+//
 // Certified bound. After a sweep, before a correction, the residual of patch i is sum over j > i of M_ij (new_j -
 // old_j), M = F rho, hence at most U max|new - old|, U the largest upper row sum of M; rounding adds at most (n + 16)
 // 2^-52 max E. With q the largest row sum of M the error of every a_i is at most
 //     (U max|new - old| + (n + 16) 2^-52 max E) / (1 - q).
-// It bounds the error against the exact solution of the stored system. Sweeps end when it is within the tolerance, when
+// With blocks U is q, and n counts them too. It bounds the error against the exact solution of the stored system. Sweeps end when it is within the tolerance, when
 // rounding is all that is left of it, or when nothing gets better any more (rows that sum to more than 1 / rho,
 // possible only without scaling: the bound is then kNoBound).
-// Bytes: 16 n channels for the fluxes, 8 g (2 + channels) for means of the g meshes.
+// Bytes: 16 channels a node for the fluxes, 8 g (2 + channels) for means of the g meshes.
 #pragma once
 
 #include <span>
@@ -30,11 +34,11 @@ namespace shodo {
 /// Reported where no bound is known.
 inline constexpr double kNoBound = 1e30;
 
-/// What a solution needs besides the matrix; everything by position but `ambient_lx`.
+/// What a solution needs besides the matrix; everything by node but `ambient_lx`.
 struct Solver {
-  std::span<double> ambient_lx;  // [patch * channels + c], the answer
-  std::span<double> sent;        // [position * channels + c]: rho_i R_i E_i
-  std::span<double> gathered;    // [position * channels + c]: sum over earlier i of v_ij sent_i
+  std::span<double> ambient_lx;  // [patch * channels + c], the answer; at first where to start from
+  std::span<double> sent;        // [node * channels + c]: rho_i R_i E_i, of blocks sum of R_j / R_b times that
+  std::span<double> gathered;    // [node * channels + c]: sum over earlier i of v_ij sent_i
   std::span<double> group_area;
   std::span<double> group_reflectance;  // [c * groups + g]: mean by area
   std::span<double> group_delta;

@@ -11,14 +11,22 @@
 //     the tiers' errors added up + 3 standard errors of its mixed visible fractions + 2^-12 S (rounding of values)
 //     + L / 64 (direct light samples its shadows) + S h / 8 if a part of the patch is hidden (its share is found twice,
 //     by sub-patches and by segments), h = (1 - visible share) / visible share, at most 1.
-// Bytes: 8 a patch (f), one row of scratch, the coarse matrix, and the rows.
+// If rule 2 left a column out, rows are scaled down only: what is missing then is missing on purpose.
+//
+// Blocks. A link to a block stands for one to each patch in it, in proportion to their visible areas: with R_b^2 the
+// sum of R_j^2 over its patches, F_ij = f_i v_ib R_j^2 / R_b, which for equal areas is rule 3's F_im / p. So a block has
+// sums like a patch, and gives each of its parts c the share R_c / R_b of them.
+// Bytes: 8 a node (f), one row of scratch, the coarse matrix, 1 + 1 a node with rules 1 and 2, the lists of
+// ambient/link_walk.h and 16 a node of errors with blocks or rule 2+, and the rows.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
 #include "ambient/coarse.h"
+#include "ambient/link_walk.h"
 #include "ambient/row_store.h"
+#include "ambient/sparsity.h"
 #include "ambient/surfaces.h"
 #include "base/arena.h"
 #include "light/direct.h"
@@ -29,49 +37,69 @@
 namespace shodo {
 
 struct Matrix {
-  explicit Matrix(Arena& arena) : store(arena, 0) {}
+  explicit Matrix(Arena& arena) : stores{RowStore(arena), RowStore(arena), RowStore(arena), RowStore(arena),
+                                         RowStore(arena), RowStore(arena)} {}
 
   Surfaces surfaces;
   const Options* options = nullptr;
-  RowStore store;
+  Sparsity sparsity;
+  LinkWalk walk;
+  RowStore stores[kGenerations];       // of each generation the first rows, as many as fit
   std::span<std::uint16_t> row_words;  // scratch: a row that isn't kept
-  std::span<double> factor;            // f_i, by position
+  std::span<double> factor;            // f_i, by node; of no meaning for blocks
+  std::span<double> own_errors;        // with blocks or rule 2+: geometry by node, then visibility
   Coarse coarse;
   double reflected[3] = {0, 0, 0};        // max over i of sum_j rho_j F_ij, by channel
   double reflected_upper[3] = {0, 0, 0};  // the same over j > i
 
   bool doubles() const { return options->row_value_bits == 64; }
+  bool keeps(std::uint32_t generation, std::uint32_t i) const { return i < stores[generation].rows(); }
+  std::uint8_t generations() const { return static_cast<std::uint8_t>(sparsity.now() + 1); }
+  /// What a node adds to the sum of a row over v: R of the part of it that sends.
+  double sending_root(std::uint32_t node) const {
+    if (surfaces.is_block(node)) return surfaces.block(node).sending_root;
+    return sparsity.sends(node) ? surfaces.root_area[node] : 0;
+  }
 };
+static_assert(kGenerations == 6, "Matrix::Matrix");
 
-/// Arrays that the solver needs later and the first pass may use until then; one value a patch, by position.
+/// Arrays that the solver needs later and the first pass may use until then; one value a node. The errors may be empty
+/// where the matrix has its own.
 struct FirstPassScratch {
   std::span<double> geometry_errors;
   std::span<double> visibility_errors;
   std::span<double> reflected;  // [position * channels + c]; zeroed again when the pass is done
 };
 
-/// Computes every row once, keeps what fits, finds the scales. `matrix.surfaces` is filled. Errors: kMemory,
-/// kInterrupted.
-Status build_matrix(const DirectLight& direct, const Progress& progress, Arena& arena, Intersector& intersector,
+/// What build_matrix() needs besides rows; takes it after `matrix.surfaces` is filled, and judges rows and columns.
+/// Errors: kMemory.
+Status prepare_matrix(const DirectLight& direct, Arena& arena, Matrix& matrix);
+
+/// Computes every row of the latest generation once, keeps what fits, finds the scales. Errors: kMemory, kInterrupted.
+Status build_matrix(const DirectLight& direct, const Progress& progress, Intersector& intersector,
                     const FirstPassScratch& scratch, Matrix& matrix, Statistics& statistics);
 
-/// Arena bytes of build_matrix without a single row kept.
+/// Arena bytes of prepare_matrix and build_matrix without a single row kept.
 std::uint64_t matrix_bytes(const Scene& scene, const Options& options);
 
-/// Gives the rows from the first to the last, once.
+/// Gives the rows of one generation from the first to the last.
 class RowCursor {
  public:
-  /// Segments of rows computed again are not counted: they were, the first time.
-  RowCursor(Matrix& matrix, const Intersector& intersector)
-      : matrix_(&matrix), intersector_(intersector), next_(matrix.store.first()) {}
+  RowCursor() = default;
+  RowCursor(const Matrix& matrix, std::uint8_t generation)
+      : next_(matrix.stores[generation].first()), generation_(generation) {}
 
-  /// Row i: call with 0, 1, 2 ...; valid until the next call.
-  const std::uint16_t* row(std::uint32_t i);
+  /// Row i: call with 0, 1, 2 ...; valid until the next call of any cursor. A copy goes on from where it was copied.
+  /// Segments of rows computed again are not counted: they were, the first time.
+  const std::uint16_t* row(Matrix& matrix, Intersector& uncounted, std::uint32_t i);
+  /// Instead of row(i).
+  void skip(const Matrix& matrix, std::uint32_t i) {
+    if (matrix.keeps(generation_, i)) next_ = RowStore::after(next_);
+  }
 
  private:
-  Matrix* matrix_;
-  Intersector intersector_;
-  const std::uint16_t* next_;
+  const std::uint16_t* next_ = nullptr;
+  std::uint8_t generation_ = 0;
 };
 
 /// Follows ascending positions from mesh to mesh.

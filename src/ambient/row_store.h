@@ -82,8 +82,7 @@ class RowReader {
 /// Blocks of one arena that follow one another without another in between are contiguous, so a row needs no pointer.
 class RowStore {
  public:
-  /// Leaves at least `reserve` bytes of the arena to others.
-  RowStore(Arena& arena, std::size_t reserve) : arena_(&arena), reserve_(reserve) {}
+  explicit RowStore(Arena& arena, std::size_t reserve = 0) : arena_(&arena), reserve_(reserve) {}
 
   /// Keeps the next row if it fits and all before it were kept.
   bool keep(std::span<const std::uint16_t> row);
@@ -94,7 +93,7 @@ class RowStore {
 
  private:
   Arena* arena_;
-  std::size_t reserve_;
+  std::size_t reserve_;  // bytes of the arena left to others
   const std::uint16_t* first_ = nullptr;
   std::uint32_t rows_ = 0;
   std::uint64_t bytes_ = 0;

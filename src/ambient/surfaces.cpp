@@ -59,13 +59,16 @@ SampleSet cached_set(const Options& options) {
 }
 
 bool take_all(Arena& arena, const Scene& scene, const Options& options, std::uint32_t shapes, Surfaces& s) {
-  const std::size_t n = scene.patch_count, meshes = scene.meshes.size();
+  const std::size_t blocks = block_count(scene, options.rules), meshes = scene.meshes.size();
+  const std::size_t n = scene.patch_count + blocks;
   s.cached_set = cached_set(options);
   s.cached_points = static_cast<std::uint32_t>(sample_points(s.cached_set, false).size());
   return arena.take("mesh order", meshes, s.mesh_at) && arena.take("mesh positions", meshes + 1, s.mesh_begin) &&
          arena.take("planar meshes", meshes, s.planar) && arena.take("patch positions", n, s.patch_at) &&
-         arena.take("patch shape numbers", n, s.shape_at) && arena.take("patch shapes", shapes, s.shapes) &&
-         arena.take("patch samples", n * s.cached_points, s.samples) && arena.take("patch areas", n, s.root_area);
+         arena.take("patch shape numbers", n, s.shape_at) && arena.take("patch shapes", shapes + blocks, s.shapes) &&
+         arena.take("blocks", blocks, s.blocks) && arena.take("patch samples", n * s.cached_points, s.samples) &&
+         arena.take("patch areas", n, s.root_area) &&
+         arena.take("mesh boxes", options.flags == FlagMode::kOff ? 0 : meshes, s.mesh_box);
 }
 
 std::uint32_t count_shapes(const Scene& scene) {
@@ -78,21 +81,81 @@ bool takes_part(const Patch& patch, double visible_area) {
   return patch.dropped == 0 && patch.area > 0 && visible_area > 0 && length_squared(patch.normal) > 0;
 }
 
-/// One mesh's patches from position `position` on; its shapes from `first_shape` on.
-void gather_mesh(Surfaces& s, const DirectLight& direct, std::uint32_t mesh_index, std::uint32_t position,
-                 std::uint32_t first_shape) {
-  const Mesh& mesh = s.scene->meshes[mesh_index];
-  const std::uint32_t shapes = shape_count(*s.scene, mesh);
-  for (std::uint32_t k = 0; k < shapes; ++k) s.shapes[first_shape + k] = shape_of(patch_piece(*s.scene, mesh, k));
-  for (std::uint32_t local = 0; local < mesh.patch_count(); ++local, ++position) {
-    const std::uint32_t patch = mesh.first_patch + local;
-    s.patch_at[position] = patch;
-    s.shape_at[position] = first_shape + shape_index(shapes, mesh, local);
-    const double visible = static_cast<double>(direct.visible_area[patch]);
-    if (!takes_part(s.patches[patch], visible)) continue;
-    s.root_area[position] = square_root(s.patches[patch].area * visible);
-    place_samples(s, position, s.cached_set, &s.samples[std::size_t{position} * s.cached_points]);
+/// What the next mesh starts with.
+struct Fill {
+  std::uint32_t position = 0, shape = 0, block = 0;
+};
+
+void gather_patch(Surfaces& s, const DirectLight& direct, std::uint32_t patch, std::uint32_t position,
+                  std::uint32_t shape) {
+  s.patch_at[position] = patch;
+  s.shape_at[position] = shape;
+  const double visible = static_cast<double>(direct.visible_area[patch]);
+  if (!takes_part(s.patches[patch], visible)) return;
+  s.root_area[position] = square_root(s.patches[patch].area * visible);
+  place_samples(s, position, s.cached_set, &s.samples[std::size_t{position} * s.cached_points]);
+}
+
+/// A block's own geometry; its sums follow when its parts are known.
+void gather_block(Surfaces& s, const Mesh& mesh, const TreeNode& node, std::uint32_t position, Fill& fill) {
+  Block& block = s.blocks[fill.block];
+  const Piece piece = block_piece(*s.scene, mesh, node.part);
+  block.part = node.part;
+  block.end = position + node.nodes;
+  block.patch.mesh = s.patches[mesh.first_patch].mesh;
+  block.patch.centre = piece.centre();
+  block.patch.area = length(piece.vector_area());
+  block.patch.normal = s.patches[mesh.first_patch].normal;
+  block.patch.longest_side = piece.longest_side();
+  s.patch_at[position] = static_cast<std::uint32_t>(s.patches.size()) + fill.block++;
+  s.shapes[fill.shape] = shape_of(piece);
+  s.shape_at[position] = fill.shape++;
+}
+
+/// Sums over the parts of a block, all of which are there.
+void finish_block(Surfaces& s, std::uint32_t position) {
+  Block& block = s.block(position);
+  double area = 0;
+  for (std::uint32_t child = position + 1; child < block.end; child = s.end(child)) {
+    area += s.root_area[child] * s.root_area[child];
+    if (s.patch(child).thin != 0) block.patch.thin = 1;
+    const bool inner = s.is_block(child);
+    block.senders += inner ? s.block(child).senders : s.root_area[child] > 0 ? 1 : 0;
   }
+  block.receivers = block.senders;
+  s.root_area[position] = square_root(area);
+  block.sending_root = s.root_area[position];
+  if (area > 0) place_samples(s, position, s.cached_set, &s.samples[std::size_t{position} * s.cached_points]);
+}
+
+/// One mesh's nodes.
+void gather_mesh(Surfaces& s, const DirectLight& direct, const Rules& rules, std::uint32_t mesh_index, Fill& fill) {
+  const Mesh& mesh = s.scene->meshes[mesh_index];
+  const std::uint32_t shapes = shape_count(*s.scene, mesh), first_shape = fill.shape, begin = fill.position;
+  for (std::uint32_t k = 0; k < shapes; ++k) s.shapes[first_shape + k] = shape_of(patch_piece(*s.scene, mesh, k));
+  fill.shape += shapes;
+  for (TreeWalk walk(*s.scene, mesh, rules); walk.next(); ++fill.position) {
+    const TreeNode& node = walk.node();
+    if (node.nodes > 1) {
+      gather_block(s, mesh, node, fill.position, fill);
+    } else {
+      gather_patch(s, direct, mesh.first_patch + node.local, fill.position,
+                   first_shape + shape_index(shapes, mesh, node.local));
+    }
+  }
+  for (std::uint32_t position = fill.position; position-- > begin;) {
+    if (s.is_block(position)) finish_block(s, position);
+  }
+}
+
+/// Around the cached samples of nodes that take part.
+LatticeBox sample_box(const Surfaces& s, std::uint32_t begin, std::uint32_t end) {
+  LatticeBox box;
+  for (std::uint32_t i = begin; i < end; ++i) {
+    if (!(s.root_area[i] > 0)) continue;
+    for (std::uint32_t k = 0; k < s.cached_points; ++k) box.include(s.samples[std::size_t{i} * s.cached_points + k]);
+  }
+  return box;
 }
 
 constexpr std::uint64_t block(std::uint64_t bytes) { return (bytes + 7) / 8 * 8; }
@@ -109,7 +172,9 @@ Vec3 sample_place(const Surfaces& surfaces, std::uint32_t position, const Sample
 
 std::uint32_t place_samples(const Surfaces& surfaces, std::uint32_t position, SampleSet set, LatticePoint* at) {
   const std::uint32_t mesh_index = surfaces.patch(position).mesh;
-  const std::uint32_t cell = cell_of_patch(surfaces.scene->meshes[mesh_index], surfaces.local(position));
+  const Mesh& mesh = surfaces.scene->meshes[mesh_index];
+  // A mesh of several cells has no blocks.
+  const std::uint32_t cell = surfaces.is_block(position) ? 0 : cell_of_patch(mesh, surfaces.local(position));
   const std::span<const SamplePoint> points = sample_points(set, surfaces.triangular(position));
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Vec3 place = sample_place(surfaces, position, points[k]);
@@ -129,24 +194,28 @@ Status gather_surfaces(const Scene& scene, const Geometry& geometry, std::span<c
   for (std::uint32_t m = 0; m < meshes; ++m) surfaces.mesh_at[m] = m;
   heap_sort(surfaces.mesh_at,
             [&](std::uint32_t a, std::uint32_t b) { return mesh_before(scene, patches, a, b); });
-  std::uint32_t position = 0, shape = 0;
+  Fill fill;
   for (std::uint32_t k = 0; k < meshes; ++k) {
     const Mesh& mesh = scene.meshes[surfaces.mesh_at[k]];
-    surfaces.mesh_begin[k] = position;
-    surfaces.planar[k] = is_planar(scene, mesh, patches[mesh.first_patch].normal, surfaces.flat) ? 1 : 0;
-    gather_mesh(surfaces, direct, surfaces.mesh_at[k], position, shape);
-    position += mesh.patch_count();
-    shape += shape_count(scene, mesh);
+    surfaces.mesh_begin[k] = fill.position;
+    const bool tree = tree_kind(scene, mesh, options.rules) != TreeKind::kNone;
+    const bool flat = tree || is_planar(scene, mesh, patches[mesh.first_patch].normal, surfaces.flat);
+    surfaces.planar[k] = flat ? 1 : 0;
+    gather_mesh(surfaces, direct, options.rules, surfaces.mesh_at[k], fill);
+    if (!surfaces.mesh_box.empty()) surfaces.mesh_box[k] = sample_box(surfaces, surfaces.mesh_begin[k], fill.position);
   }
-  surfaces.mesh_begin[meshes] = position;
+  surfaces.mesh_begin[meshes] = fill.position;
   return {};
 }
 
 std::uint64_t surfaces_bytes(const Scene& scene, const Options& options) {
-  const std::uint64_t n = scene.patch_count, meshes = scene.meshes.size();
+  const std::uint64_t blocks = block_count(scene, options.rules), meshes = scene.meshes.size();
+  const std::uint64_t n = scene.patch_count + blocks;
   const std::uint64_t points = sample_points(cached_set(options), false).size();
   return block(4 * meshes) + block(4 * (meshes + 1)) + block(meshes) + 2 * block(4 * n) +
-         block(sizeof(PatchShape) * count_shapes(scene)) + block(sizeof(LatticePoint) * n * points) + block(8 * n);
+         block(sizeof(PatchShape) * (count_shapes(scene) + blocks)) + block(sizeof(Block) * blocks) +
+         block(sizeof(LatticePoint) * n * points) + block(8 * n) +
+         (options.flags == FlagMode::kOff ? 0 : sizeof(LatticeBox) * meshes);
 }
 
 }  // namespace shodo

@@ -3,18 +3,25 @@
 // Patches are numbered here by their *position*: meshes in an order that geometry alone decides (by their vertices, not
 // by their place in the file), each mesh's patches in their own order. So sums run in the same order, and give the
 // same bits, whatever the order of objects in the file. Columns of the rows are positions too.
-// Bytes: 16 + 12 P a patch (P samples, 1 or 4) + 96 a shape + 9 a mesh.
+//
+// With rule 3 or blocks a mesh that can be taken as a whole is a tree (ambient/block_tree.h), and positions number its
+// *nodes*: a block comes before what is in it, a mesh's patches stand in the order of its tree. A block is looked at
+// as one large patch: it has a centre, a normal, an area, a shape and samples. Without blocks a node is a patch.
+// Bytes: 16 + 12 P a node (P samples, 1 or 4) + 96 a shape + 9 a mesh (33 with flags) + 136 a block, which has a
+// shape of its own.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
+#include "ambient/block_tree.h"
 #include "ambient/patch_shape.h"
 #include "ambient/sample_set.h"
 #include "base/arena.h"
 #include "light/direct.h"
 #include "shodo/options.h"
 #include "visibility/geometry.h"
+#include "visibility/lattice_box.h"
 
 namespace shodo {
 
@@ -26,21 +33,36 @@ struct Surfaces {
   std::span<std::uint32_t> mesh_at;      // order of meshes
   std::span<std::uint32_t> mesh_begin;   // first position of mesh_at[k]; one more at the end
   std::span<std::uint8_t> planar;        // of mesh_at[k]: all its patches lie in one plane
-  std::span<std::uint32_t> patch_at;     // position -> patch
+  std::span<std::uint32_t> patch_at;     // position -> patch, or the number of patches + block
+  std::span<Block> blocks;               // by their order
   std::span<std::uint32_t> shape_at;     // position -> shape
   std::span<PatchShape> shapes;
   std::span<LatticePoint> samples;       // [position * cached_points + k]: points of cached_set
   SampleSet cached_set = SampleSet::kGauss;  // kCentre for one segment a pair
   std::uint32_t cached_points = 4;       // 1 or 4
-  std::span<double> root_area;           // sqrt of the area that isn't hidden; 0: takes no part
+  std::span<LatticeBox> mesh_box;        // of mesh_at[k]: around its samples; none with flags off
+  std::span<double> root_area;           // sqrt R of the area that isn't hidden; 0: takes no part
   double flat = 0;                       // heights below it are rounding, scene units
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(patch_at.size()); }
-  const Patch& patch(std::uint32_t position) const { return patches[patch_at[position]]; }
+  bool is_block(std::uint32_t position) const { return patch_at[position] >= patches.size(); }
+  const Block& block(std::uint32_t position) const { return blocks[patch_at[position] - patches.size()]; }
+  Block& block(std::uint32_t position) { return blocks[patch_at[position] - patches.size()]; }
+  /// The node after the last that is part of this one.
+  std::uint32_t end(std::uint32_t position) const { return is_block(position) ? block(position).end : position + 1; }
+  const Patch& patch(std::uint32_t position) const {
+    return is_block(position) ? block(position).patch : patches[patch_at[position]];
+  }
   const PatchShape& shape(std::uint32_t position) const { return shapes[shape_at[position]]; }
   const Mesh& mesh(std::uint32_t position) const { return scene->meshes[patch(position).mesh]; }
+  /// Of a patch, counted from its mesh's first.
   std::uint32_t local(std::uint32_t position) const { return patch_at[position] - mesh(position).first_patch; }
-  Piece piece(std::uint32_t position) const { return patch_piece(*scene, mesh(position), local(position)); }
+  Piece piece(std::uint32_t position) const {
+    return is_block(position) ? block_piece(*scene, mesh(position), block(position).part)
+                              : patch_piece(*scene, mesh(position), local(position));
+  }
+  /// The share of a node in the flux of the block that holds it.
+  double share(std::uint32_t child, std::uint32_t parent) const { return root_area[child] / root_area[parent]; }
   bool triangular(std::uint32_t position) const { return shape(position).outline == Outline::kTriangle; }
 };
 

@@ -4,15 +4,17 @@ namespace shodo {
 
 namespace {
 
+constexpr std::size_t kMostPairPoints = kMostSamples + kMostSamples / 2;
+
 /// The samples of one patch: lattice points, and the set they belong to.
-struct Ends {
+struct PatchEnds {
   std::uint32_t position;
   std::span<const SamplePoint> set;
   const LatticePoint* at;
 };
 
 /// cos cos / r^4 times both distances, and the weights of the samples: 0 where one doesn't see the other's front.
-double kernel(const Surfaces& surfaces, const Ends& i, std::size_t k, const Ends& j, std::size_t l) {
+double kernel(const Surfaces& surfaces, const PatchEnds& i, std::size_t k, const PatchEnds& j, std::size_t l) {
   const Patch& from = surfaces.patch(i.position);
   const Patch& to = surfaces.patch(j.position);
   const Vec3 apart = sample_place(surfaces, j.position, j.set[l]) - sample_place(surfaces, i.position, i.set[k]);
@@ -38,12 +40,13 @@ struct Seen {
 };
 
 /// Stops as soon as both kinds were met.
-void look(const Surfaces& surfaces, const Ends& i, const Ends& j, bool crossing, Intersector& intersector, Seen& seen) {
+void look(const Surfaces& surfaces, const PatchEnds& i, const PatchEnds& j, bool crossing, Intersector& intersector,
+          const Aim& aim, Seen& seen) {
   const Link link = link_between(surfaces, i.position, j.position);
   for (std::size_t k = 0; k < i.set.size(); ++k) {
     for (std::size_t l = 0; l < j.set.size(); ++l) {
       if (crossing && !(kernel(surfaces, i, k, j, l) > 0)) continue;
-      (intersector.blocked(i.at[k], j.at[l], link) ? seen.blocked : seen.free) = true;
+      (intersector.blocked(i.at[k], j.at[l], link, aim) ? seen.blocked : seen.free) = true;
       if (seen.mixed()) return;
     }
   }
@@ -54,26 +57,27 @@ struct Sums {
 };
 
 /// Adds the weights of all pairs of samples, and of those with a free segment; `alike`: all weights the same.
-void weigh(const Surfaces& surfaces, const Ends& i, const Ends& j, bool alike, Intersector& intersector, Sums& sums) {
+void weigh(const Surfaces& surfaces, const PatchEnds& i, const PatchEnds& j, bool alike, Intersector& intersector,
+           const Aim& aim, Sums& sums) {
   const Link link = link_between(surfaces, i.position, j.position);
   for (std::size_t k = 0; k < i.set.size(); ++k) {
     for (std::size_t l = 0; l < j.set.size(); ++l) {
       const double weight = alike ? 1 : kernel(surfaces, i, k, j, l);
       if (!(weight > 0)) continue;
       sums.all += weight;
-      if (!intersector.blocked(i.at[k], j.at[l], link)) sums.free += weight;
+      if (!intersector.blocked(i.at[k], j.at[l], link, aim)) sums.free += weight;
     }
   }
 }
 
 /// The two sets of both patches. Where they are one set, `many` is empty.
 struct PairEnds {
-  Ends few_i, few_j, many_i, many_j;
+  PatchEnds few_i, few_j, many_i, many_j;
 
   bool one_set() const { return many_i.set.empty(); }
 };
 
-Ends ends_of(const Surfaces& surfaces, std::uint32_t position, SampleSet set, const LatticePoint* at) {
+PatchEnds ends_of(const Surfaces& surfaces, std::uint32_t position, SampleSet set, const LatticePoint* at) {
   return {position, sample_points(set, surfaces.triangular(position)), at};
 }
 
@@ -83,7 +87,7 @@ PairEnds place_ends(const Surfaces& surfaces, std::uint32_t i, std::uint32_t j, 
   if (sets.few == surfaces.cached_set) {
     const LatticePoint* cached = surfaces.samples.data();
     const std::size_t stride = surfaces.cached_points;
-    const Ends ends_i = ends_of(surfaces, i, sets.few, cached + i * stride);
+    const PatchEnds ends_i = ends_of(surfaces, i, sets.few, cached + i * stride);
     return {ends_i, ends_of(surfaces, j, sets.few, cached + j * stride), {}, {}};
   }
   for (DenseSamples* at : {&at_i, &at_j}) {
@@ -101,14 +105,38 @@ PairEnds place_ends(const Surfaces& surfaces, std::uint32_t i, std::uint32_t j, 
   return ends;
 }
 
-VisibleFraction weighted_fraction(const Surfaces& surfaces, const PairEnds& ends, Intersector& intersector) {
+/// The points of both sets of a patch and the box around them.
+Ends all_ends(const PatchEnds& few, const PatchEnds& many, LatticePoint* points) {
+  Ends ends;
+  std::size_t count = 0;
+  for (const PatchEnds* set : {&few, &many}) {
+    for (std::size_t k = 0; k < set->set.size(); ++k) {
+      points[count++] = set->at[k];
+      ends.box.include(set->at[k]);
+    }
+  }
+  ends.points = {points, count};
+  return ends;
+}
+
+/// Narrowed from a wide aim that holds for these ends, or else found anew.
+Aim aim_between(const Surfaces& surfaces, const PairEnds& ends, const Aim* wide, Intersector& intersector) {
+  if (surfaces.mesh_box.empty()) return {};  // flags off
+  LatticePoint points_i[kMostPairPoints], points_j[kMostPairPoints];
+  const Ends i = all_ends(ends.few_i, ends.many_i, points_i), j = all_ends(ends.few_j, ends.many_j, points_j);
+  if (wide != nullptr) return intersector.narrow(*wide, i, j);
+  return intersector.aim(i, j, link_between(surfaces, ends.few_i.position, ends.few_j.position));
+}
+
+VisibleFraction weighted_fraction(const Surfaces& surfaces, const PairEnds& ends, Intersector& intersector,
+                                  const Aim& aim) {
   for (const bool alike : {false, true}) {
     Sums sums;
     if (ends.one_set()) {
-      weigh(surfaces, ends.few_i, ends.few_j, alike, intersector, sums);
+      weigh(surfaces, ends.few_i, ends.few_j, alike, intersector, aim, sums);
     } else {
-      weigh(surfaces, ends.few_i, ends.many_j, alike, intersector, sums);
-      weigh(surfaces, ends.many_i, ends.few_j, alike, intersector, sums);
+      weigh(surfaces, ends.few_i, ends.many_j, alike, intersector, aim, sums);
+      weigh(surfaces, ends.many_i, ends.few_j, alike, intersector, aim, sums);
     }
     if (!(sums.all > 0)) continue;
     const double value = sums.free / sums.all;
@@ -122,26 +150,31 @@ VisibleFraction weighted_fraction(const Surfaces& surfaces, const PairEnds& ends
 }  // namespace
 
 VisibleFraction visible_fraction(const Surfaces& surfaces, std::uint32_t i, std::uint32_t j, bool crossing,
-                                 const Options& options, Intersector& intersector, DenseSamples& dense_i) {
+                                 const Options& options, Intersector& intersector, const Aim& wide,
+                                 DenseSamples& dense_i) {
   DenseSamples at_i, at_j;
   const bool densify = options.segments_mixed > options.segments_first;
   const SegmentSets first = segment_sets(options.segments_first);
   // The row's samples are those of the denser sets if there are any, else of the first.
   const PairEnds ends = place_ends(surfaces, i, j, first, densify ? at_i : dense_i, at_j);
+  const Aim aim = aim_between(surfaces, ends, first.few == surfaces.cached_set ? &wide : nullptr, intersector);
+  if (aim.clear()) return {1, 0};
   Seen seen;
   if (ends.one_set()) {
-    look(surfaces, ends.few_i, ends.few_j, crossing, intersector, seen);
+    look(surfaces, ends.few_i, ends.few_j, crossing, intersector, aim, seen);
   } else {
-    look(surfaces, ends.few_i, ends.many_j, crossing, intersector, seen);
-    if (!seen.mixed()) look(surfaces, ends.many_i, ends.few_j, crossing, intersector, seen);
+    look(surfaces, ends.few_i, ends.many_j, crossing, intersector, aim, seen);
+    if (!seen.mixed()) look(surfaces, ends.many_i, ends.few_j, crossing, intersector, aim, seen);
   }
   if (seen.free && !seen.blocked) return {1, 0};
   if (seen.blocked && !seen.free) return {0, 0};
   // Mixed, or no pair of samples with a positive kernel.
-  if (!densify) return weighted_fraction(surfaces, ends, intersector);
+  if (!densify) return weighted_fraction(surfaces, ends, intersector, aim);
   DenseSamples dense_j;
   const SegmentSets dense = segment_sets(options.segments_mixed);
-  return weighted_fraction(surfaces, place_ends(surfaces, i, j, dense, dense_i, dense_j), intersector);
+  const PairEnds dense_ends = place_ends(surfaces, i, j, dense, dense_i, dense_j);
+  const Aim dense_aim = aim_between(surfaces, dense_ends, nullptr, intersector);
+  return weighted_fraction(surfaces, dense_ends, intersector, dense_aim);
 }
 
 }  // namespace shodo

@@ -5,7 +5,8 @@
 // told that it is needed, and stops at the first disagreement. Ends inside something are blocked by themselves, so
 // what comes out is the exchange between the parts that are not hidden. Points whose kernel is not positive have no
 // weight, and cost no segment; if none has one although the exchange isn't zero (a sliver in front of the other's
-// plane), all count the same. Exact: each segment. Approximate: a shadow's edge between samples, standard error about
+// plane), all count the same. Where nothing can come between (visibility/intersector.h), the answer is 1 without a
+// segment, as all would say. Exact: each segment. Approximate: a shadow's edge between samples, standard error about
 // sqrt(V (1 - V) / N).
 #pragma once
 
@@ -26,7 +27,9 @@ struct VisibleFraction {
   double variance = 0;  // estimated
 };
 
+/// `wide`: aimed between boxes that hold the cached samples of i and of j (ambient/surfaces.h).
 VisibleFraction visible_fraction(const Surfaces& surfaces, std::uint32_t i, std::uint32_t j, bool crossing,
-                                 const Options& options, Intersector& intersector, DenseSamples& dense_i);
+                                 const Options& options, Intersector& intersector, const Aim& wide,
+                                 DenseSamples& dense_i);
 
 }  // namespace shodo

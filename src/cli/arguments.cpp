@@ -14,10 +14,12 @@ namespace shodo {
 
 namespace {
 
-constexpr unsigned kForRender = 1, kForMap = 2, kForCheck = 4;
-constexpr unsigned kForAll = kForRender | kForMap | kForCheck;
-constexpr unsigned kForPicture = kForRender | kForCheck;
-constexpr unsigned kForOutput = kForRender | kForMap;
+constexpr unsigned kForRender = 1, kForMap = 2, kForCheck = 4, kForReport = 8;
+constexpr unsigned kForOne = kForRender | kForMap | kForCheck;  // a report has its own list of flags and rules
+constexpr unsigned kForAll = kForOne | kForReport;
+constexpr unsigned kForPicture = kForRender | kForReport | kForCheck;
+constexpr unsigned kForTables = kForRender | kForMap;
+constexpr unsigned kForOutput = kForTables | kForReport;
 
 struct CommandName {
   std::string_view name;
@@ -31,6 +33,8 @@ constexpr CommandName kCommands[] = {
     {"render", Command::kRender, kForRender, "render SCENE -o FILE.png|.ppm",
      "the picture: direct and ambient light, maps, scanlines"},
     {"map", Command::kMap, kForMap, "map SCENE -o DIR", "the illuminance maps, a PFM file a mesh"},
+    {"report", Command::kReport, kForReport, "report SCENE... -o DIR",
+     "the paper's table, and speed against error: HTML, Markdown, CSV"},
     {"check", Command::kCheck, kForCheck, "check SCENE",
      "what will be modelled, the lattice step, the memory it takes"},
 };
@@ -107,6 +111,45 @@ bool take_size(std::string_view text, Arguments& a) {
   return true;
 }
 
+bool take_flags(std::string_view text, Arguments& a) {
+  a.options.flags = text == "off" ? FlagMode::kOff : text == "scene" ? FlagMode::kScene : FlagMode::kAuto;
+  return text == "off" || text == "auto" || text == "scene";
+}
+
+/// One item of the list; none may come twice, nor 3 beside blocks or 2 beside 2+.
+bool take_rule(std::string_view item, Rules& rules) {
+  std::string_view name = item, value;
+  const bool has_value = split(item, ':', name, value);
+  if (name == "3" && !rules.rule3 && !rules.blocks) {
+    rules.rule3 = true;
+    return !has_value || number_in(value, 0.1, 1000, rules.rule3_diameters);
+  }
+  if (name == "blocks" && !rules.rule3 && !rules.blocks) {
+    rules.blocks = true;
+    return !has_value || number_in(value, 1e-9, 1, rules.blocks_error);
+  }
+  bool* const rule = item == "1" ? &rules.rule1 : item == "2" ? &rules.rule2 : item == "2+" ? &rules.rule2_repeated : nullptr;
+  if (rule == nullptr || *rule) return false;
+  *rule = true;
+  return !(rules.rule2 && rules.rule2_repeated);
+}
+
+bool take_rules(std::string_view text, Arguments& a) {
+  Rules rules;
+  if (text == "all") {
+    rules.rule1 = rules.rule2 = rules.rule3 = true;
+  } else if (text != "none") {
+    std::string_view item, rest = text;
+    for (bool more = true; more;) {
+      item = rest;
+      more = split(rest, ',', item, rest);
+      if (!take_rule(item, rules)) return false;
+    }
+  }
+  a.options.rules = rules;
+  return true;
+}
+
 bool take_tiers(std::string_view text, Arguments& a) {
   a.options.tiers = 0;
   return text == "near" || number_in(text, 1e-9, 1, a.options.tiers);
@@ -130,14 +173,14 @@ struct OptionRule {
 };
 
 constexpr OptionRule kOptions[] = {
-    {"-o", "FILE|DIR", kForOutput, "a name", "where the picture or the maps go",
+    {"-o", "FILE|DIR", kForOutput, "a name", "where the picture, the maps or the report go",
      [](std::string_view t, Arguments& a) { return take_text(t, a.output); }},
     {"--memory", "SIZE", kForAll, "bytes from 1 to 1024G, with K, M or G for their multiples",
      "budget for everything the library holds (8M)", take_memory},
-    {"--flags", "off", kForAll, "off: auto and scene are not available yet",
-     "which blocking flags are used: only off for now", [](std::string_view t, Arguments&) { return t == "off"; }},
-    {"--rules", "none", kForAll, "none: the sparsity rules are not available yet",
-     "which sparsity rules are used: only none for now", [](std::string_view t, Arguments&) { return t == "none"; }},
+    {"--flags", "off|auto|scene", kForOne, "off, auto or scene", "which blocking flags are used (auto)", take_flags},
+    {"--rules", "LIST", kForOne,
+     "none, all, or a list of 1, 2 or 2+, and 3, 3:D or blocks, blocks:REL (D from 0.1 to 1000, REL from 1e-9 to 1)",
+     "which sparsity rules are used: none, all (1,2,3), or some of 1, 2 or 2+, and 3[:D] or blocks[:REL] (none)", take_rules},
     {"--tolerance", "REL", kForAll, "a number from 1e-12 to 1", "the solver's bound, of the largest illuminance (1e-4)",
      [](std::string_view t, Arguments& a) { return number_in(t, 1e-12, 1, a.options.tolerance); }},
     {"--patch", "SIZE", kForAll, "a number above 0",
@@ -169,9 +212,9 @@ constexpr OptionRule kOptions[] = {
        a.options.camera = t;
        return !t.empty();
      }},
-    {"--csv", "FILE", kForOutput, "a name, or - for standard output", "a table, one line a sub-patch",
+    {"--csv", "FILE", kForTables, "a name, or - for standard output", "a table, one line a sub-patch",
      [](std::string_view t, Arguments& a) { return take_text(t, a.csv); }},
-    {"--stats", "FILE", kForOutput, "a name, or - for standard output",
+    {"--stats", "FILE", kForTables, "a name, or - for standard output",
      "what was counted and how long it took, as JSON",
      [](std::string_view t, Arguments& a) { return take_text(t, a.statistics); }},
     {"--quiet", "", kForAll, "", "no progress, no warnings",
@@ -210,12 +253,13 @@ class Words {
   void read_word(std::string_view word) {
     if (word.starts_with("-") && word != "-") return read_option(word);
     if (command_ == nullptr) return read_command(word);
-    if (!arguments_.scene.empty()) {
+    if (!arguments_.scene.empty() && command_->command != Command::kReport) {
       mistake_ = "expected one scene, found " + quoted(word) + " after " + quoted(arguments_.scene);
     } else if (word.empty() || word == "-") {
       mistake_ = "expected the name of a scene file, found " + quoted(word);
     } else {
-      arguments_.scene = word;
+      if (arguments_.scene.empty()) arguments_.scene = word;
+      arguments_.scenes.emplace_back(word);
     }
   }
 
@@ -224,10 +268,8 @@ class Words {
         std::find_if(std::begin(kCommands), std::end(kCommands), [&](const auto& c) { return c.name == word; });
     if (at != std::end(kCommands)) {
       command_ = at;
-    } else if (word == "report") {
-      mistake_ = "report is not available yet";
     } else {
-      mistake_ = "expected a command (render, map or check), found " + quoted(word);
+      mistake_ = "expected a command (render, map, report or check), found " + quoted(word);
     }
   }
 
@@ -262,7 +304,7 @@ class Words {
   /// What only all words together can tell.
   void check() {
     if (command_ == nullptr) {
-      mistake_ = "expected a command (render, map or check), found none";
+      mistake_ = "expected a command (render, map, report or check), found none";
       return;
     }
     arguments_.command = command_->command;
@@ -284,7 +326,8 @@ class Words {
     const bool is_picture = a.command == Command::kRender;
     if (a.output.empty()) {
       mistake_ = std::string(command_->name) + ": expected -o and where the " +
-                 (is_picture ? "picture goes" : "maps go") + ", found nothing";
+                 (is_picture ? "picture goes" : a.command == Command::kMap ? "maps go" : "report goes") +
+                 ", found nothing";
     } else if (is_picture && !has_ending(a.output, ".png") && !has_ending(a.output, ".ppm")) {
       mistake_ = "-o: expected a name that ends in .png or .ppm, found " + quoted(a.output);
     } else if (!is_picture && a.output == "-") {

@@ -3,17 +3,19 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "shodo/options.h"
 
 namespace shodo {
 
-enum class Command : std::uint8_t { kNone, kRender, kMap, kCheck, kHelp, kVersion };
+enum class Command : std::uint8_t { kNone, kRender, kMap, kReport, kCheck, kHelp, kVersion };
 
 struct Arguments {
   Command command = Command::kNone;
-  std::string scene;
-  std::string output;              // -o: a picture's file or the maps' folder
+  std::string scene;                // the first
+  std::vector<std::string> scenes;  // all of them: report takes more than one
+  std::string output;              // -o: a picture's file, the maps' or the report's folder
   std::uint64_t memory = 8 << 20;  // bytes
   Options options;                 // options.camera views the words of the command line
   std::string csv;                 // "-": standard output; empty: none

@@ -44,6 +44,7 @@ int run(int count, char** words) {
     case Command::kVersion: return print(std::string(kVersion) + "\n");
     case Command::kRender: return render(arguments);
     case Command::kMap: return map(arguments);
+    case Command::kReport: return report(arguments);
     case Command::kCheck: return check(arguments);
     case Command::kNone: break;
   }

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "cli/report_cases.h"
 #include "shodo/shodo.h"
 
 namespace shodo {
@@ -105,6 +106,15 @@ class Json {
   int depth_ = 0;
 };
 
+std::string_view flag_mode_name(FlagMode mode) {
+  switch (mode) {
+    case FlagMode::kOff: return "off";
+    case FlagMode::kAuto: return "auto";
+    case FlagMode::kScene: return "scene";
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string statistics_json(const Model& model, const std::string& scene, const Watch& watch) {
@@ -115,7 +125,7 @@ std::string statistics_json(const Model& model, const std::string& scene, const 
       .add("meshes", s.meshes)
       .add("patches", s.patches);
   json.add("sub_patches", s.sub_patches).add("channels", s.channels);
-  json.add("flags", std::string_view("off")).add("rules", std::string_view("none"));
+  json.add("flags", flag_mode_name(model.options.flags)).add("rules", std::string_view(rules_text(model.options.rules)));
   json.open("lattice")
       .add("step", s.lattice_step)
       .add("inserted", s.vertices_inserted)
@@ -129,6 +139,9 @@ std::string statistics_json(const Model& model, const std::string& scene, const 
       .add("nonzeros", s.nonzeros)
       .add("bytes", s.row_bytes)
       .close();
+  json.open("links").add("stored", s.links).add("to_blocks", s.block_links).add("blocks", s.blocks).close();
+  json.open("rules_dropped").add("rows", s.rows_emptied).add("columns", s.columns_emptied);
+  json.add("columns_restored", s.columns_restored).add("rounds", s.rule2_rounds).add("loss_bound_lx", s.rule2_bound_lx).close();
   json.open("rows").add("scaled", s.rows_scaled).add("kept", s.rows_kept).add("recomputed", s.rows_recomputed).close();
   json.open("solution").add("sweeps", s.sweeps).add("bound", s.solution_bound).close();
   json.open("memory").add("budget", s.memory_budget).add("peak", s.memory_peak).close();

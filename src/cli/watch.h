@@ -21,6 +21,7 @@ class Watch {
   void enter(Stage stage);
   /// Ends the last stage and wipes the progress line.
   void finish();
+  bool shown() const { return shown_; }
   double seconds(Stage stage) const { return seconds_[static_cast<std::size_t>(stage)]; }
 
  private:

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kLargeFactor = 0.01;
 constexpr std::uint32_t kManyFaces = 12;
+constexpr std::uint32_t kMostCuts = 8;  // first_cuts(), and twice that
 
 Emitter emitter_of(const Piece& piece, std::uint32_t light) {
   Emitter emitter;
@@ -26,7 +27,7 @@ LatticePoint segment_end(const Scene& scene, const Geometry& geometry, const Emi
 
 Link link_to(const Scene& scene, const Receiver& receiver, const Emitter& emitter) {
   const std::uint32_t light = static_cast<std::uint32_t>(scene.objects.size()) + emitter.light;
-  return {receiver.object, emitter.mesh == kNone ? light : scene.meshes[emitter.mesh].object, LightSet::kDirect};
+  return {light, receiver.object, LightSet::kDirect};
 }
 
 }  // namespace
@@ -58,13 +59,25 @@ Piece emitter_piece(const Scene& scene, const Emitter& emitter) {
   return piece;
 }
 
+LatticeBox ends_box(const Scene& scene, const Geometry& geometry, const Emitter& emitter) {
+  const Piece piece = emitter_piece(scene, emitter);
+  LatticeBox box;
+  for (std::uint32_t cuts = emitter.mesh == kNone ? 4 : 1; cuts <= kMostCuts; cuts *= 2) {
+    const PieceGrid grid(piece, cuts);
+    for (std::uint32_t k = 0; k < grid.count(); ++k) {
+      box.include(segment_end(scene, geometry, emitter, grid.point(k)));
+    }
+  }
+  return box;
+}
+
 std::uint32_t first_cuts(const Emitter& emitter, double factor, std::uint32_t faces) {
   if (emitter.mesh == kNone) return 4;
   return (faces >= kManyFaces ? 1 : 2) * (factor > kLargeFactor ? 2 : 1);
 }
 
 Seen look(const Scene& scene, const Geometry& geometry, Intersector& intersector, const Emitter& emitter,
-          const Piece& piece, const Receiver& receiver, const Sample& sample, std::uint32_t cuts) {
+          const Piece& piece, const Receiver& receiver, const Sample& sample, std::uint32_t cuts, const Aim& aim) {
   const PieceGrid grid(piece, cuts);
   const Link link = link_to(scene, receiver, emitter);
   Seen seen;
@@ -76,8 +89,9 @@ Seen look(const Scene& scene, const Geometry& geometry, Intersector& intersector
     const double squared = length_squared(way);
     const double kernel = grid.weight(k) * above * -dot(emitter.normal, way) / (squared * squared);
     if (!(kernel > 0)) continue;
+    if (aim.clear()) return {kernel, kernel, false};  // all arrives, whatever the other kernels
     seen.all += kernel;
-    if (intersector.blocked(sample.lattice, segment_end(scene, geometry, emitter, point), link)) {
+    if (intersector.blocked(sample.lattice, segment_end(scene, geometry, emitter, point), link, aim)) {
       seen.some_blocked = true;
     } else {
       seen.arrives += kernel;

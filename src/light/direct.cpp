@@ -175,6 +175,8 @@ Status light_directly(const Scene& scene, const Geometry& geometry, std::span<co
   Status status = take_results(scene, arena, direct);
   if (!status.done()) return status;
   const ArenaScratch scratch(arena);
+  const IntersectorScratch seeking(intersector);
+  if (!intersector.start(arena)) return arena.refused();
   Sources sources(scene, geometry, intersector);
   status = sources.prepare(arena);
   if (!status.done()) return status;

@@ -15,7 +15,8 @@ Vec3 unit_of(const LatticeVector& v) {
 }  // namespace
 
 Status Sources::prepare(Arena& arena) {
-  if (!arena.take("light sources", count(), sources_) || !arena.take("emitters", count_emitters(), emitters_)) {
+  if (!arena.take("light sources", count(), sources_) || !arena.take("emitters", count_emitters(), emitters_) ||
+      !arena.take("emitters' ends", count_emitters(), emitter_ends_)) {
     return arena.refused();
   }
   std::uint32_t next = 0;
@@ -23,6 +24,7 @@ Status Sources::prepare(Arena& arena) {
     sources_[l].first_emitter = next;
     list_emitters(l, next);
     sources_[l].emitter_count = next - sources_[l].first_emitter;
+    if (intersector_->seeking()) prepare_ends(l);
     if (light(l).kind != LightKind::kSun) continue;
     sources_[l].to_sun = lattice_direction(-light(l).towards);
     sources_[l].to_sun_unit = unit_of(sources_[l].to_sun);
@@ -52,7 +54,41 @@ void Sources::list_emitters(std::uint32_t l, std::uint32_t& next) {
 }
 
 Link Sources::link(std::uint32_t l, const Receiver& receiver) const {
-  return {receiver.object, static_cast<std::uint32_t>(scene_->objects.size()) + l, LightSet::kDirect};
+  return {static_cast<std::uint32_t>(scene_->objects.size()) + l, receiver.object, LightSet::kDirect};
+}
+
+void Sources::prepare_ends(std::uint32_t l) {
+  Source& source = sources_[l];
+  source.ends = {};
+  if (light(l).kind == LightKind::kPoint) source.ends.include(geometry_->light_points[l]);
+  for (std::uint32_t e = source.first_emitter; e < source.first_emitter + source.emitter_count; ++e) {
+    emitter_ends_[e] = ends_box(*scene_, *geometry_, emitters_[e]);
+    source.ends.include(emitter_ends_[e]);
+  }
+}
+
+/// Grown by two steps but where it is flat, as further samples of the same piece are rounded on their own.
+void Sources::expect(const LatticeBox& samples) {
+  expected_ = samples;
+  aimed_ = kNone;
+  for (int k = 0; k < 3; ++k) {
+    if (samples.low[k] >= samples.high[k]) continue;
+    expected_.low[k] -= 2;
+    expected_.high[k] += 2;
+  }
+}
+
+const Aim& Sources::aim_at(std::uint32_t l, const Receiver& receiver, const Sample& sample) {
+  if (!intersector_->seeking()) return aim_;
+  const bool inside = expected_.contains(sample.lattice, 0);
+  if (!inside) expected_.include(sample.lattice);
+  if (inside && aimed_ == l && aimed_object_ == receiver.object) return aim_;
+  aimed_ = l;
+  aimed_object_ = receiver.object;
+  aim_ = light(l).kind == LightKind::kSun
+             ? intersector_->aim_along(expected_, sources_[l].to_sun, link(l, receiver))
+             : intersector_->aim(expected_, sources_[l].ends, link(l, receiver));
+  return aim_;
 }
 
 Received Sources::receive(std::uint32_t l, const Receiver& receiver, const Sample& sample, bool trace_dark) {
@@ -74,7 +110,10 @@ Received Sources::receive_point(std::uint32_t l, const Receiver& receiver, const
   Received received;
   received.lux = direct.lux;
   if (!(direct.lux > 0) && !trace_dark) return received;
-  if (!intersector_->blocked(sample.lattice, geometry_->light_points[l], link(l, receiver))) received.visible = 1;
+  const Aim& aim = aim_at(l, receiver, sample);
+  const bool blocked =
+      !aim.clear() && intersector_->blocked(sample.lattice, geometry_->light_points[l], link(l, receiver), aim);
+  if (!blocked) received.visible = 1;
   return received;
 }
 
@@ -83,7 +122,10 @@ Received Sources::receive_sun(std::uint32_t l, const Receiver& receiver, const S
   if (!(cosine > 0)) return {};
   Received received;
   received.lux = light(l).strength * cosine;
-  if (!intersector_->ray_blocked(sample.lattice, sources_[l].to_sun, link(l, receiver))) received.visible = 1;
+  const Aim& aim = aim_at(l, receiver, sample);
+  const bool blocked =
+      !aim.clear() && intersector_->ray_blocked(sample.lattice, sources_[l].to_sun, link(l, receiver), aim);
+  if (!blocked) received.visible = 1;
   return received;
 }
 
@@ -100,8 +142,9 @@ Sources::Faces Sources::look_at_faces(std::uint32_t l, const Receiver& receiver,
     const double f = point_to_polygon(sample.point, receiver.normal, piece.corner, piece.corners);
     if (!(f > 0)) continue;
     faces.factor += f;
+    const Aim aim = intersector_->narrow(aim_at(l, receiver, sample), sample.lattice, emitter_ends_[e]);
     const Seen seen = look(*scene_, *geometry_, *intersector_, emitter, piece, receiver, sample,
-                           finer * first_cuts(emitter, f, source.emitter_count));
+                           finer * first_cuts(emitter, f, source.emitter_count), aim);
     if (!(seen.all > 0)) continue;
     faces.tested += f;
     faces.arrives += f * (seen.arrives / seen.all);

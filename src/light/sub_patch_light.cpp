@@ -95,7 +95,12 @@ void SubPatch::place_probes() {
     total += probes_.weight[k];
   }
   probes_.count = corners + 1;
-  for (std::uint32_t k = 0; k <= corners; ++k) probes_.weight[k] /= total;
+  LatticeBox box;
+  for (std::uint32_t k = 0; k <= corners; ++k) {
+    probes_.weight[k] /= total;
+    box.include(probes_.sample[k].lattice);
+  }
+  sources_.expect(box);
 }
 
 void SubPatch::add_light(std::uint32_t l) {

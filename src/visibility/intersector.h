@@ -1,24 +1,23 @@
 // Which segments reach their end: the only door to visibility for the stages below (paper 3.1).
 //
-// For now every triangle of every object is tried in file order until the first blocker, without any spatial structure
-// (`--flags off`): the yardstick for whatever is faster. Answers are exact and don't depend on the order.
+// Two ways with the same answers. Flags off: every triangle of every object is tried in file order until the first
+// blocker, without any spatial structure: the yardstick. Else a caller first takes aim: between two groups of ends it
+// gets the facets that can come between them (visibility/blockers.h), and most often there are none, so that no segment
+// is needed. Aims are made from the very points at which segments end, so no facet is missed: exact, whatever the
+// order. What blocked last is tried first.
+// Bytes: those of visibility/blockers.h and flags.h and two lists of 4 bytes a facet, from start() to finish().
 #pragma once
 
 #include <cstdint>
+#include <span>
 
+#include "base/arena.h"
+#include "shodo/options.h"
+#include "visibility/blockers.h"
+#include "visibility/flags.h"
 #include "visibility/geometry.h"
 
 namespace shodo {
-
-/// The paper's two sets of flags.
-enum class LightSet : std::uint8_t { kDirect, kAmbient };
-
-/// The objects at the two ends (lights: objects.size() + light), and for which purpose; flags will look here.
-struct Link {
-  std::uint32_t from = kNone;
-  std::uint32_t to = kNone;
-  LightSet set = LightSet::kDirect;
-};
 
 /// What a ray meets first.
 struct Hit {
@@ -26,14 +25,51 @@ struct Hit {
   bool front = false;  // seen from its front
 };
 
+/// What can block the segments between two groups of ends. Valid until the next wide, or the next narrow, aim.
+struct Aim {
+  std::span<std::uint32_t> facets;
+  bool any_triangle = true;  // nothing is known: flags off
+
+  /// No segment is blocked: none is needed.
+  bool clear() const { return !any_triangle && facets.empty(); }
+};
+
 class Intersector {
  public:
   explicit Intersector(const Geometry& geometry) : geometry_(&geometry) {}
+  Intersector(const Geometry& geometry, const Scene& scene, FlagMode mode)
+      : geometry_(&geometry), scene_(&scene), mode_(mode) {}
+
+  /// The flags, to outlive the stages; else start() takes them each time. False: the arena is too small.
+  bool take_flags(Arena& arena);
+  const FlagTables& flags() const { return flags_; }
+
+  /// Builds what finds blockers, as scratch of a stage that calls finish() before the arena is released. False: the
+  /// arena is too small.
+  bool start(Arena& arena);
+  void finish();
+  /// Whether aims find anything: between start() and finish(), flags not off.
+  bool seeking() const { return started_; }
+  /// Arena bytes of start() after take_flags().
+  static std::uint64_t bytes(const Geometry& geometry, FlagMode mode);
+
+  /// Between any points of two boxes; "wide", since narrower aims can be made of it.
+  Aim aim(const LatticeBox& a, const LatticeBox& b, const Link& link);
+  /// Between the points of two groups; as narrow as any.
+  Aim aim(const Ends& a, const Ends& b, const Link& link);
+  /// From any point of the box towards a sun; wide.
+  Aim aim_along(const LatticeBox& a, const LatticeVector& direction, const Link& link);
+  /// Of a wide aim what remains between the points of two groups that lie in its boxes.
+  Aim narrow(const Aim& wide, const Ends& a, const Ends& b);
+  /// The same between a point and a box.
+  Aim narrow(const Aim& wide, const LatticePoint& a, const LatticeBox& b);
 
   /// True if any triangle blocks the open segment from p to q. Counts a segment and its tests.
   bool blocked(const LatticePoint& p, const LatticePoint& q, const Link& link);
+  bool blocked(const LatticePoint& p, const LatticePoint& q, const Link& link, const Aim& aim);
   /// The same towards a sun: a ray from p along `direction` (lattice_direction, the way from p to the sun).
   bool ray_blocked(const LatticePoint& p, const LatticeVector& direction, const Link& link);
+  bool ray_blocked(const LatticePoint& p, const LatticeVector& direction, const Link& link, const Aim& aim);
   /// The nearest triangle along a ray, exactly; ties: front before back, then the lower index. Not counted.
   Hit nearest(const LatticePoint& p, const LatticeVector& direction) const;
 
@@ -43,9 +79,37 @@ class Intersector {
  private:
   static constexpr std::uint32_t index(LightSet set) { return static_cast<std::uint32_t>(set); }
 
+  template <class Blocks>
+  bool any_blocks(Blocks blocks, const LatticePoint& p, const LatticeVector& d, const Link& link, const Aim& aim);
+  template <class Miss>
+  Aim keep(const Aim& wide, const Shaft& shaft, Miss misses);
+  Aim aim_in(const Shaft& shaft, const Link& link, std::span<std::uint32_t> list);
+  std::span<const Triangle> triangles_of(const Facet& facet) const {
+    return {geometry_->triangles.data() + facet.first, facet.count};
+  }
+
   const Geometry* geometry_;
+  const Scene* scene_ = nullptr;
+  FlagMode mode_ = FlagMode::kOff;
+  bool started_ = false;
+  bool flags_stay_ = false;
+  Blockers blockers_;
+  FlagTables flags_;
+  std::span<std::uint32_t> wide_, narrow_;
   std::uint64_t segments_[2] = {0, 0};
   std::uint64_t tests_[2] = {0, 0};
+};
+
+/// Ends what start() built, at the end of a stage.
+class IntersectorScratch {
+ public:
+  explicit IntersectorScratch(Intersector& intersector) : intersector_(intersector) {}
+  ~IntersectorScratch() { intersector_.finish(); }
+  IntersectorScratch(const IntersectorScratch&) = delete;
+  IntersectorScratch& operator=(const IntersectorScratch&) = delete;
+
+ private:
+  Intersector& intersector_;
 };
 
 /// Whether a sample is inside or under something: what it sees first, in every one of a fixed set of directions over

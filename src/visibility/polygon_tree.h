@@ -9,21 +9,10 @@
 #include <span>
 
 #include "base/arena.h"
+#include "visibility/lattice_box.h"
 #include "visibility/placement.h"
 
 namespace shodo {
-
-/// Closed; empty if low > high.
-struct LatticeBox {
-  std::int32_t low[3] = {INT32_MAX, INT32_MAX, INT32_MAX};
-  std::int32_t high[3] = {INT32_MIN, INT32_MIN, INT32_MIN};
-
-  void include(const LatticePoint& p);
-  void include(const LatticeBox& box);
-  bool contains(const LatticePoint& p, std::int32_t margin) const;
-  /// Whether the segment meets the box grown by `margin`; may err by a billionth of the segment, towards true.
-  bool met_by(const LatticePoint& from, const LatticePoint& to, std::int32_t margin) const;
-};
 
 /// Around corners and inserted vertices.
 LatticeBox polygon_box(const Placement& placement, std::uint32_t polygon);

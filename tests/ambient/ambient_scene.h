@@ -95,7 +95,7 @@ struct AmbientScene {
   std::vector<float> visible, lights;
 };
 
-/// The stored matrix of a scene, rows all kept, as full tables by patch.
+/// The stored matrix of a scene, rows all kept, as full tables by patch; links of blocks are spread to their patches.
 struct StoredMatrix {
   explicit StoredMatrix(AmbientScene& scene) : n(scene.patches.size()), matrix(scene.loaded.arena) {
     Arena& arena = scene.loaded.arena;
@@ -104,14 +104,20 @@ struct StoredMatrix {
     Status status = gather_surfaces(scene.loaded.scene, scene.geometry, scene.patches, scene.direct, scene.options,
                                     arena, matrix.surfaces);
     EXPECT_TRUE(status.done());
-    const std::size_t sizes[3] = {n, n, n * scene.loaded.scene.channels};
+    EXPECT_TRUE(prepare_matrix(scene.direct, arena, matrix).done());
+    const std::size_t nodes = matrix.surfaces.size();
+    const std::size_t sizes[3] = {nodes, nodes, nodes * scene.loaded.scene.channels};
     for (int k = 0; k < 3; ++k) EXPECT_TRUE(arena.take("scratch", sizes[k], scratch[k]));
     Intersector intersector(scene.geometry);
     scene.statistics = {};
-    status = build_matrix(scene.direct, {}, arena, intersector, {scratch[0], scratch[1], scratch[2]}, matrix,
-                          scene.statistics);
-    EXPECT_TRUE(status.done());
-    EXPECT_EQ(matrix.store.rows(), n);
+    const FirstPassScratch first{scratch[0], scratch[1], scratch[2]};
+    // The columns that rule 2+ put back, by the solution that the scene has: as the stage itself goes on.
+    do {
+      status = build_matrix(scene.direct, {}, intersector, first, matrix, scene.statistics);
+      EXPECT_TRUE(status.done());
+    } while (scene.options.rules.rule2_repeated && !scene.ambient.patch_lx.empty() &&
+             matrix.sparsity.restore(matrix.surfaces, scene.direct, scene.ambient.patch_lx));
+    for (std::uint8_t g = 0; g < matrix.generations(); ++g) EXPECT_EQ(matrix.stores[g].rows(), nodes);
     fill(intersector);
   }
 
@@ -121,30 +127,52 @@ struct StoredMatrix {
     for (std::size_t j = 0; j < n; ++j) sum += f[i * n + j];
     return sum;
   }
+  /// The patches of a node.
+  std::vector<std::uint32_t> patches_of(std::uint32_t node) const {
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t k = node; k < matrix.surfaces.end(node); ++k) {
+      if (!matrix.surfaces.is_block(k)) all.push_back(matrix.surfaces.patch_at[k]);
+    }
+    return all;
+  }
 
   std::size_t n;
   Matrix matrix;
-  std::vector<double> f;         // F_ij, scaled
+  std::vector<double> f;         // F_ij, scaled; 0 where a rule emptied row or column
   std::vector<double> exchange;  // G_ij V_ij as stored, symmetric
+  std::vector<int> covered;      // links that cover a pair
 
  private:
+  void put(std::uint32_t a, std::uint32_t b, double v) {
+    const Surfaces& s = matrix.surfaces;
+    for (std::uint32_t k = a; k < s.end(a); ++k) {
+      for (std::uint32_t l = b; l < s.end(b); ++l) {
+        if (s.is_block(k) || s.is_block(l)) continue;
+        const double ri = s.root_area[k], rj = s.root_area[l];
+        const double of_pair = v * ri * rj / (s.root_area[a] * s.root_area[b]);
+        const std::size_t i = s.patch_at[k], j = s.patch_at[l];
+        ++covered[i * n + j];
+        ++covered[j * n + i];
+        exchange[i * n + j] = exchange[j * n + i] = of_pair * ri * rj;
+        f[i * n + j] = matrix.sparsity.sends(l) ? matrix.factor[k] * of_pair * rj : 0;
+        f[j * n + i] = matrix.sparsity.sends(k) ? matrix.factor[l] * of_pair * ri : 0;
+      }
+    }
+  }
   void fill(const Intersector& intersector) {
     f.assign(n * n, 0);
     exchange.assign(n * n, 0);
-    const Surfaces& s = matrix.surfaces;
-    RowCursor rows(matrix, intersector);
-    const auto put = [&](std::uint32_t i, std::uint32_t j, double v) {
-      const std::size_t a = s.patch_at[i], b = s.patch_at[j];
-      exchange[a * n + b] = exchange[b * n + a] = v * s.root_area[i] * s.root_area[j];
-      f[a * n + b] = matrix.factor[i] * v * s.root_area[j];
-      f[b * n + a] = matrix.factor[j] * v * s.root_area[i];
-    };
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const std::uint16_t* row = rows.row(i);
-      if (matrix.doubles()) {
-        for (RowReader<true> e(row, i); e.next();) put(i, e.column(), e.value());
-      } else {
-        for (RowReader<false> e(row, i); e.next();) put(i, e.column(), e.value());
+    covered.assign(n * n, 0);
+    Intersector uncounted(intersector);
+    for (std::uint8_t g = 0; g < matrix.generations(); ++g) {
+      RowCursor rows(matrix, g);
+      for (std::uint32_t i = 0; i < matrix.surfaces.size(); ++i) {
+        const std::uint16_t* row = rows.row(matrix, uncounted, i);
+        if (matrix.doubles()) {
+          for (RowReader<true> e(row, i); e.next();) put(i, e.column(), e.value());
+        } else {
+          for (RowReader<false> e(row, i); e.next();) put(i, e.column(), e.value());
+        }
       }
     }
   }

@@ -290,6 +290,16 @@ TEST(StatisticsFile, HasTheKeysOfTheContractInItsOrder) {
                                          "form_factors.computed",
                                          "form_factors.nonzeros",
                                          "form_factors.bytes",
+                                         "links",
+                                         "links.stored",
+                                         "links.to_blocks",
+                                         "links.blocks",
+                                         "rules_dropped",
+                                         "rules_dropped.rows",
+                                         "rules_dropped.columns",
+                                         "rules_dropped.columns_restored",
+                                         "rules_dropped.rounds",
+                                         "rules_dropped.loss_bound_lx",
                                          "rows",
                                          "rows.scaled",
                                          "rows.kept",
@@ -314,7 +324,7 @@ TEST(StatisticsFile, HasTheKeysOfTheContractInItsOrder) {
   EXPECT_EQ(json.at("patches"), "88");       // 2 x 16 + 4 x 9 + 5 x 4
   EXPECT_EQ(json.at("sub_patches"), "304");  // 64 + 16 + 4 x 36 + 5 x 16
   EXPECT_EQ(json.at("channels"), "3");
-  EXPECT_EQ(json.at("flags"), "off");
+  EXPECT_EQ(json.at("flags"), "auto");
   EXPECT_EQ(json.at("rules"), "none");
   EXPECT_EQ(json.at("memory.budget"), "8388608");
   EXPECT_GT(json.number("memory.peak"), 10000);

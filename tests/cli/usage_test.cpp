@@ -10,17 +10,16 @@ using testing::Test;
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-TEST(CommandLine, HelpNamesEveryOptionOfTheContractAndNoReport) {
+TEST(CommandLine, HelpNamesEveryOptionOfTheContract) {
   const Outcome help = run({"--help"});
   EXPECT_EQ(help.status, 0);
   EXPECT_EQ(help.err, "");
   for (const char* word :
-       {"render",  "map",         "check",    "-o",      "--memory",   "--flags",      "--rules",       "--tolerance",
+       {"render",  "map",         "report", "check",    "-o",      "--memory",   "--flags",      "--rules",       "--tolerance",
         "--patch", "--sub-patch", "--refine", "--tiers", "--segments", "--scale-rows", "--interpolate", "--row-values",
         "--size",  "--antialias", "--camera", "--csv",   "--stats",    "--quiet",      "--help",        "--version"}) {
     EXPECT_TRUE(contains(help.out, word)) << word;
   }
-  EXPECT_FALSE(contains(help.out, "report"));
   EXPECT_EQ(run({"render", "--help"}).out, help.out);
 }
 
@@ -45,7 +44,6 @@ TEST(CommandLine, EveryMistakeEndsWithStatus2AndOneLineThatNamesIt) {
   const Mistake mistakes[] = {
       {{}, "expected a command"},
       {{"paint"}, "'paint'"},
-      {{"report", scene, "-o", "x"}, "report is not available yet"},
       {{"render"}, "expected a scene file"},
       {{"render", scene}, "expected -o"},
       {{"render", "-", "-o", "x.ppm"}, "'-'"},
@@ -76,11 +74,18 @@ TEST(CommandLine, EveryMistakeEndsWithStatus2AndOneLineThatNamesIt) {
       {render({"--memory", ""}), "found ''"},
       {render({"--memory", "99999999999999999999"}), "--memory: expected"},
       {render({"--memory", "1025G"}), "--memory: expected"},
-      {render({"--flags", "auto"}), "not available yet"},
-      {render({"--flags", "scene"}), "not available yet"},
-      {render({"--flags", "on"}), "--flags: expected off"},
-      {render({"--rules", "all"}), "not available yet"},
-      {render({"--rules", "1,2"}), "not available yet"},
+      {render({"--flags", "on"}), "--flags: expected off, auto or scene"},
+      {render({"--rules", "some"}), "--rules: expected none, all, or a list"},
+      {render({"--rules", "4"}), "found '4'"},
+      {render({"--rules", "1,1"}), "found '1,1'"},
+      {render({"--rules", "2,2+"}), "found '2,2+'"},
+      {render({"--rules", "3,blocks"}), "found '3,blocks'"},
+      {render({"--rules", "blocks:0.1,3"}), "found 'blocks:0.1,3'"},
+      {render({"--rules", "1,"}), "found '1,'"},
+      {render({"--rules", "none,1"}), "found 'none,1'"},
+      {render({"--rules", "3:0"}), "found '3:0'"},
+      {render({"--rules", "1:2"}), "found '1:2'"},
+      {render({"--rules", "blocks:2"}), "found 'blocks:2'"},
       {render({"--tolerance", "0"}), "found '0'"},
       {render({"--tolerance", "1e-13"}), "--tolerance: expected a number from 1e-12 to 1"},
       {render({"--tolerance", "nan"}), "found 'nan'"},
@@ -136,7 +141,9 @@ TEST(CommandLine, EveryOptionIsTakenAtBothEndsOfItsRange) {
       {"--segments", "1,1"},   {"--segments", "256,256"}, {"--segments", "1,64"},    {"--scale-rows", "on"},
       {"--scale-rows", "off"}, {"--interpolate", "on"},   {"--interpolate", "off"},  {"--row-values", "16"},
       {"--row-values", "64"},  {"--size", "1x1"},         {"--size", "16384x16384"}, {"--antialias", "1"},
-      {"--antialias", "4"},    {"--antialias", "16"},     {"--camera", "side"},      {"--quiet"}};
+      {"--antialias", "4"},    {"--antialias", "16"},     {"--camera", "side"},      {"--quiet"},
+      {"--flags", "auto"},     {"--flags", "scene"},      {"--rules", "all"},        {"--rules", "1,2,3:2.5"},
+      {"--rules", "2+"},       {"--rules", "blocks,1"},   {"--rules", "blocks:1e-9"}};
   for (const Running::Words& option : options) {
     Running::Words words{"check", scene};
     words.insert(words.end(), option.begin(), option.end());

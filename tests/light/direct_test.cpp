@@ -345,7 +345,7 @@ TEST(DirectLight, RefusesAnArenaThatIsTooSmallAndNamesOneThatIsNot) {
     bytes = status.bytes_needed;
     ++refused;
   }
-  EXPECT_EQ(refused, 7);  // each block once
+  EXPECT_EQ(refused, 8);  // each block once
   EXPECT_EQ(run(bytes - 8).code, StatusCode::kMemory);
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -71,7 +72,7 @@ TEST(Pipeline, RunsInExactlyTheSmallestMemoryAtAnyAlignment) {
     ASSERT_TRUE(expected.has_value());
     const std::uint64_t smallest = smallest_memory(roomy.model());
     EXPECT_LE(smallest_memory(roomy.model(), false), smallest);
-    for (const std::size_t skew : {0, 1, 4, 7}) {
+    for (const std::size_t skew : std::initializer_list<std::size_t>{0, 1, 4, 7}) {
       // Up to 7 bytes go to alignment, and smallest_memory() then counts them.
       const std::size_t bytes = smallest + (8 - skew) % 8;
       Pipeline tight(name, bytes, skew);

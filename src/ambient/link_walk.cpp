@@ -1,0 +1,140 @@
+#include "ambient/link_walk.h"
+
+#include "base/check.h"
+
+namespace shodo {
+
+namespace {
+
+/// The larger diagonal of a block's outline, or longest side of a triangle, squared.
+double diameter_squared(const PatchShape& shape, double longest_side) {
+  if (shape.outline != Outline::kQuad) return longest_side * longest_side;
+  const double one = 4 * length_squared(shape.a + shape.b), other = 4 * length_squared(shape.a - shape.b);
+  return one > other ? one : other;
+}
+
+double at_most_one(double x) { return x < 1 ? x : 1; }
+
+}  // namespace
+
+std::uint64_t LinkWalk::bytes(const Scene& scene, const Options& options) {
+  return (4 * std::uint64_t{scene.patch_count} * block_depth(scene, options.rules) + 7) / 8 * 8;
+}
+
+Status LinkWalk::take(Arena& arena, const Surfaces& surfaces, const Sparsity& sparsity, const Options& options) {
+  surfaces_ = &surfaces;
+  sparsity_ = &sparsity;
+  rule3_ = options.rules.rule3;
+  const double diameters = options.rules.rule3_diameters > 0 ? options.rules.rule3_diameters : kRule3Diameters;
+  diameters_squared_ = diameters * diameters;
+  error_ = options.rules.blocks_error > 0 ? options.rules.blocks_error : kBlocksError;
+  double area = 0;
+  for (std::uint32_t node = 0; node < surfaces.size(); ++node) {
+    if (!surfaces.is_block(node)) area += surfaces.root_area[node] * surfaces.root_area[node];
+  }
+  inverse_area_ = area > 0 ? 1 / area : 0;
+  const std::size_t words = std::size_t{surfaces.scene->patch_count} * block_depth(*surfaces.scene, options.rules);
+  return arena.take("links left", words, left_) ? Status{} : arena.refused();
+}
+
+std::uint32_t LinkWalk::mesh_of(std::uint32_t node) const {
+  std::uint32_t low = 0, high = static_cast<std::uint32_t>(surfaces_->mesh_at.size());
+  while (high - low > 1) {
+    const std::uint32_t middle = (low + high) / 2;
+    (surfaces_->mesh_begin[middle] <= node ? low : high) = middle;
+  }
+  return low;
+}
+
+/// True if nothing of mesh_at[k] can see the node; decided by the mesh's corners, which hold all its patches.
+bool LinkWalk::out_of_sight(const RowSide& side, std::uint32_t k) const {
+  const Surfaces& surfaces = *surfaces_;
+  const Mesh& mesh = surfaces.scene->meshes[surfaces.mesh_at[k]];
+  if (mesh.kind == MeshKind::kGrid) return false;
+  const Vec3* vertex = &surfaces.scene->vertices[mesh.first_vertex];
+  const std::uint32_t vertices = mesh.kind == MeshKind::kTriangle ? 3 : 4;
+  bool all_behind = true;
+  for (std::uint32_t v = 0; v < vertices && all_behind; ++v) {
+    all_behind = dot(side.patch->normal, vertex[v] - side.patch->centre) <= surfaces.flat;
+  }
+  if (all_behind) return true;
+  if (surfaces.planar[k] == 0) return false;
+  const Vec3& normal = surfaces.patches[mesh.first_patch].normal;
+  const double height = dot(normal, side.patch->centre - vertex[0]);
+  return height + extent_along(*side.shape, side.patch->longest_side, normal).high <= surfaces.flat;
+}
+
+void LinkWalk::open_level(std::uint32_t a) {
+  SHODO_CHECK(levels_ < kDeepest);
+  const std::uint32_t first = levels_ == 0 ? 0 : level_[levels_ - 1].last;
+  level_[levels_++] = {a, surfaces_->end(a), first, first};
+}
+
+void LinkWalk::leave(std::uint32_t b) {
+  Level& level = level_[levels_ - 1];
+  SHODO_CHECK(level.last < left_.size());
+  left_[level.last++] = b;
+}
+
+void LinkWalk::go_to(std::uint32_t a) {
+  while (levels_ > 0 && (a <= level_[levels_ - 1].block || a >= level_[levels_ - 1].end)) --levels_;
+  std::uint32_t node = levels_ > 0 ? level_[levels_ - 1].block + 1 : surfaces_->mesh_begin[mesh_of(a)];
+  for (;;) {
+    while (surfaces_->end(node) <= a) node = surfaces_->end(node);
+    if (node == a) return;
+    expand(row_side(*surfaces_, node), [](std::uint32_t) {});
+    ++node;
+  }
+}
+
+bool LinkWalk::far_from(std::uint32_t patch, std::uint32_t mesh) const {
+  const Patch& whole = surfaces_->patch(mesh);
+  const double diameter = diameter_squared(surfaces_->shape(mesh), whole.longest_side);
+  return length_squared(surfaces_->patch(patch).centre - whole.centre) > diameters_squared_ * diameter;
+}
+
+/// How many links it saves to link the patches of a block, where they are far, to the other as a whole.
+std::uint32_t LinkWalk::far_links(std::uint32_t parts_of, std::uint32_t whole) const {
+  std::uint32_t far = 0;
+  for (std::uint32_t patch = parts_of + 1; patch < surfaces_->end(parts_of); ++patch) {
+    if (far_from(patch, whole)) ++far;
+  }
+  return far * (surfaces_->end(whole) - whole - 2);
+}
+
+LinkWalk::Step LinkWalk::judge_rule3(std::uint32_t a, std::uint32_t b) const {
+  const bool a_whole = surfaces_->is_block(a), b_whole = surfaces_->is_block(b);
+  if (a_whole && b_whole) return far_links(b, a) > far_links(a, b) ? Step::kSplitSecond : Step::kSplitFirst;
+  if (a_whole) return far_from(b, a) ? Step::kLink : Step::kSplitFirst;
+  return far_from(a, b) ? Step::kLink : Step::kSplitSecond;
+}
+
+LinkWalk::Step LinkWalk::judge_blocks(std::uint32_t a, std::uint32_t b) const {
+  const Patch& p = surfaces_->patch(a);
+  const Patch& q = surfaces_->patch(b);
+  const Vec3 apart = q.centre - p.centre;
+  const double over_p = dot(p.normal, apart), over_q = -dot(q.normal, apart);
+  const double side_p = p.longest_side, side_q = q.longest_side;
+  if (over_p + side_q <= 0 || over_q + side_p <= 0) return Step::kNothing;
+  const bool split_p = surfaces_->is_block(a) && (side_p >= side_q || !surfaces_->is_block(b));
+  const Step split = split_p ? Step::kSplitFirst : Step::kSplitSecond;
+  const double squared = length_squared(apart), sides = side_p + side_q;
+  // Nearer than that the estimate is none; squares, since roots are dear.
+  if (squared < 0.25 * sides * sides) return split;
+  const double distance = square_root(squared);
+  const double cos_p = at_most_one((over_p + 0.5 * side_q) / distance), cos_q = at_most_one((over_q + 0.5 * side_p) / distance);
+  if (!(cos_p > 0) || !(cos_q > 0)) return Step::kNothing;
+  const double least = p.area < q.area ? p.area : q.area;
+  const double exchange = p.area * q.area * kInversePi * cos_p * cos_q / squared;
+  const double error = exchange * sides;
+  const double allowed = error_ * distance;
+  return error * error * inverse_area_ <= allowed * allowed * least ? Step::kLink : split;
+}
+
+LinkWalk::Step LinkWalk::judge(std::uint32_t a, std::uint32_t b) const {
+  if (!(surfaces_->root_area[b] > 0) || sparsity_->generation(a, b) > sparsity_->now()) return Step::kNothing;
+  if (!surfaces_->is_block(a) && !surfaces_->is_block(b)) return Step::kLink;
+  return rule3_ ? judge_rule3(a, b) : judge_blocks(a, b);
+}
+
+}  // namespace shodo

@@ -1,0 +1,153 @@
+#include "visibility/blockers.h"
+
+#include <bit>
+
+#include "visibility/sort.h"
+
+namespace shodo {
+
+namespace {
+
+constexpr std::uint32_t kLeafFacets = 4;
+
+std::uint32_t facets_of(const PolygonTriangles& polygon) { return (polygon.count + 1) / 2; }
+
+std::uint32_t count_nodes(std::uint32_t facets) {
+  if (facets == 0) return 0;
+  std::uint32_t leaves = 1;
+  while (facets > kLeafFacets * leaves) leaves *= 2;
+  return 2 * leaves - 1;
+}
+
+/// Where a point is: both, if in the plane.
+struct Sides {
+  bool front = false, behind = false;
+
+  void add(std::int64_t side) {
+    front = front || side > 0;
+    behind = behind || side < 0;
+  }
+  bool both() const { return front && behind; }
+};
+
+}  // namespace
+
+LatticeBox facet_box(std::span<const Triangle> triangles, bool& tilted) {
+  LatticeBox box;
+  for (const Triangle& triangle : triangles) {
+    box.include(triangle.a);
+    box.include(triangle.b);
+    box.include(triangle.c);
+  }
+  tilted = true;
+  for (int k = 0; k < 3; ++k) {
+    if (box.low[k] != box.high[k]) continue;
+    ++box.low[k];
+    --box.high[k];
+    tilted = false;
+  }
+  return box;
+}
+
+std::uint32_t Blockers::facet_count(const Geometry& geometry) {
+  std::uint32_t count = 0;
+  for (const PolygonTriangles& polygon : geometry.cells) count += facets_of(polygon);
+  for (const PolygonTriangles& polygon : geometry.light_triangles) count += facets_of(polygon);
+  return count;
+}
+
+bool Blockers::build(const Geometry& geometry, Arena& arena) {
+  const std::uint32_t count = facet_count(geometry);
+  if (!arena.take("blockers", count, facets_)) return false;
+  if (!arena.take("blockers' boxes", count_nodes(count), nodes_)) return false;
+  std::uint32_t next = 0;
+  for (const std::span<PolygonTriangles> polygons : {geometry.cells, geometry.light_triangles}) {
+    for (const PolygonTriangles& polygon : polygons) {
+      for (std::uint32_t k = 0; k < polygon.count; k += 2) {
+        Facet& facet = facets_[next++];
+        facet.first = polygon.first + k;
+        facet.count = k + 1 < polygon.count ? 2 : 1;
+        bool tilted = false;
+        facet.box = facet_box(geometry.triangles.subspan(facet.first, facet.count), tilted);
+        facet.tilted = tilted ? 1 : 0;
+        facet.blocks = 3;
+      }
+    }
+  }
+  const std::uint32_t nodes = static_cast<std::uint32_t>(nodes_.size());
+  for (std::uint32_t node = 0; 2 * node + 1 < nodes; ++node) split(range_of(node));
+  for (std::uint32_t node = nodes; node-- > 0;) {
+    LatticeBox box;
+    if (2 * node + 1 < nodes) {
+      box.include(nodes_[2 * node + 1]);
+      box.include(nodes_[2 * node + 2]);
+    } else {
+      const Range range = range_of(node);
+      for (std::uint32_t k = range.first; k < range.end; ++k) box.include(facets_[k].box);
+    }
+    nodes_[node] = box;
+  }
+  return true;
+}
+
+std::uint64_t Blockers::bytes(const Geometry& geometry) {
+  const std::uint64_t facets = facet_count(geometry);
+  return sizeof(Facet) * facets + sizeof(LatticeBox) * count_nodes(static_cast<std::uint32_t>(facets));
+}
+
+Blockers::Range Blockers::range_of(std::uint32_t node) const {
+  const std::uint32_t level = static_cast<std::uint32_t>(std::bit_width(node + 1)) - 1;
+  const std::uint64_t place = node + 1 - (std::uint32_t{1} << level);
+  const std::uint64_t count = facets_.size();
+  return {static_cast<std::uint32_t>(count * place >> level), static_cast<std::uint32_t>(count * (place + 1) >> level)};
+}
+
+/// Sorts a node's facets along the axis on which their centres are widest apart.
+void Blockers::split(const Range& range) {
+  const std::span<Facet> facets = facets_.subspan(range.first, range.end - range.first);
+  LatticeBox centres;  // times 2
+  for (const Facet& facet : facets) {
+    const LatticeBox& box = facet.box;
+    centres.include(LatticePoint{box.low[0] + box.high[0], box.low[1] + box.high[1], box.low[2] + box.high[2]});
+  }
+  int axis = 0;
+  for (int k = 1; k < 3; ++k) {
+    if (centres.high[k] - centres.low[k] > centres.high[axis] - centres.low[axis]) axis = k;
+  }
+  heap_sort(facets, [axis](const Facet& a, const Facet& b) {
+    const std::int32_t at_a = a.box.low[axis] + a.box.high[axis], at_b = b.box.low[axis] + b.box.high[axis];
+    return at_a == at_b ? a.first < b.first : at_a < at_b;
+  });
+}
+
+bool misses_side(std::span<const Triangle> triangles, std::span<const LatticePoint> a,
+                 std::span<const LatticePoint> b) {
+  for (const Triangle& triangle : triangles) {
+    Sides sides;
+    for (const std::span<const LatticePoint> points : {a, b}) {
+      for (const LatticePoint& point : points) {
+        sides.add(triangle.side(point));
+        if (sides.both()) return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// A plane's lowest and highest corner of a box are those that its normal's signs pick.
+bool misses_side(std::span<const Triangle> triangles, const LatticePoint& a, const LatticeBox& b) {
+  for (const Triangle& triangle : triangles) {
+    const LatticeVector& n = triangle.n;
+    const bool x = n.x > 0, y = n.y > 0, z = n.z > 0;
+    const LatticePoint low{x ? b.low[0] : b.high[0], y ? b.low[1] : b.high[1], z ? b.low[2] : b.high[2]};
+    const LatticePoint high{x ? b.high[0] : b.low[0], y ? b.high[1] : b.low[1], z ? b.high[2] : b.low[2]};
+    Sides sides;
+    sides.add(triangle.side(a));
+    sides.add(triangle.side(low));
+    sides.add(triangle.side(high));
+    if (sides.both()) return false;
+  }
+  return true;
+}
+
+}  // namespace shodo

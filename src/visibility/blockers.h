@@ -1,0 +1,90 @@
+// The triangles that block, in a tree of boxes, so that the few which can come between two places are found fast
+// (paper 3.1; design: the table of possible blockers, refined from mesh to patch to segment).
+//
+// A facet is one triangle of a polygon or two that follow each other. Facets are sorted by median cuts; a node of the
+// implicit tree (children 2 k + 1 and 2 k + 2) holds an even share of them.
+//
+// A triangle blocks a segment only if the ends lie strictly on opposite sides of its plane. For a facet square to an
+// axis, as walls are, this costs nothing: its box is made one step thinner than flat, low > high, so that boxes which
+// touch the plane from one side only don't meet it. All walls of a room drop out so. For others misses_side() looks.
+// Bytes: 32 a facet, 24 a node (one for each 1 to 4 facets), and 4 a facet and list.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "base/arena.h"
+#include "visibility/geometry.h"
+#include "visibility/lattice_box.h"
+#include "visibility/shaft.h"
+
+namespace shodo {
+
+struct Facet {
+  LatticeBox box;            // facet_box()
+  std::uint32_t first = 0;   // triangle
+  std::uint8_t count = 1;    // 1 or 2
+  std::uint8_t blocks = 3;   // bit s: in LightSet s
+  std::uint8_t tilted = 0;   // 1: not square to an axis
+  std::uint8_t unused = 0;
+};
+static_assert(sizeof(Facet) == 32);
+
+/// The box around a facet; flat ones get low = plane + 1, high = plane - 1 along the axis to which they are square.
+LatticeBox facet_box(std::span<const Triangle> triangles, bool& tilted);
+
+/// The ends of segments: lattice points and the box around them.
+struct Ends {
+  std::span<const LatticePoint> points;
+  LatticeBox box;
+};
+
+class Blockers {
+ public:
+  /// False: the arena is too small.
+  bool build(const Geometry& geometry, Arena& arena);
+  static std::uint32_t facet_count(const Geometry& geometry);
+  static std::uint64_t bytes(const Geometry& geometry);
+
+  bool built() const { return !nodes_.empty(); }
+  std::span<Facet> facets() { return facets_; }
+  std::span<const Facet> facets() const { return facets_; }
+
+  /// Calls visit(facet number) for all in the shaft, in an order that the geometry fixes.
+  template <class Visit>
+  void visit(const Shaft& shaft, Visit visit) const {
+    std::uint32_t stack[32];  // one waiting node a level
+    std::uint32_t depth = 0;
+    if (built()) stack[depth++] = 0;
+    while (depth > 0) {
+      const std::uint32_t node = stack[--depth];
+      if (shaft.misses(nodes_[node])) continue;
+      if (2 * node + 1 < nodes_.size()) {
+        stack[depth++] = 2 * node + 2;
+        stack[depth++] = 2 * node + 1;
+        continue;
+      }
+      const Range range = range_of(node);
+      for (std::uint32_t k = range.first; k < range.end; ++k) {
+        if (!shaft.misses(facets_[k].box)) visit(k);
+      }
+    }
+  }
+
+ private:
+  struct Range {
+    std::uint32_t first, end;
+  };
+  Range range_of(std::uint32_t node) const;
+  void split(const Range& range);
+
+  std::span<Facet> facets_;
+  std::span<LatticeBox> nodes_;
+};
+
+/// True if no segment between the points of a and those of b passes the plane of any triangle of the facet.
+bool misses_side(std::span<const Triangle> triangles, std::span<const LatticePoint> a, std::span<const LatticePoint> b);
+/// The same for any point of box b.
+bool misses_side(std::span<const Triangle> triangles, const LatticePoint& a, const LatticeBox& b);
+
+}  // namespace shodo

@@ -1,0 +1,44 @@
+// The space through which all segments between two boxes pass: what lies outside cannot block any of them (paper 3.1;
+// Haines and Wallace 1991, shaft culling).
+//
+// Seen along an axis the boxes A and B are rectangles, and the hull of two rectangles has, besides sides of theirs,
+// edges from a corner of A to the same corner of B only: two mostly, four if they cross. So a box misses the hull if it
+// is outside the common box of A and B or beyond one of these lines. Exact: all of it, in integers. Approximate: hull
+// and box may still be apart where no axis shows it; that costs tests only. For a sun B is A moved along the direction,
+// which reaches out of the lattice's cube.
+// Stack: 320 bytes.
+#pragma once
+
+#include <cstdint>
+
+#include "visibility/lattice_box.h"
+
+namespace shodo {
+
+class Shaft {
+ public:
+  Shaft(const LatticeBox& a, const LatticeBox& b);
+  /// `direction`: of lattice_direction(), its largest component is the size of the cube.
+  static Shaft along(const LatticeBox& a, const LatticeVector& direction);
+
+  /// True if no segment from A to B meets the box, which may be flat in the way of facet_box().
+  bool misses(const LatticeBox& box) const {
+    return apart(around_, box) || beyond_a_line(box);
+  }
+
+ private:
+  /// Beyond: normal_u u + normal_v v > limit; the box's nearest corner counts.
+  struct Line {
+    std::int64_t limit;
+    std::int32_t normal_u, normal_v;
+    std::uint8_t u, v;  // axes
+  };
+  bool beyond_a_line(const LatticeBox& box) const;
+  void add_lines(const LatticeBox& a, const LatticeBox& b, std::uint8_t u, std::uint8_t v);
+
+  LatticeBox around_;
+  Line lines_[12];
+  std::uint32_t lines_used_ = 0;
+};
+
+}  // namespace shodo

@@ -1,0 +1,583 @@
+// The report: its error measures against cases worked out by hand, its three forms against each other, and the command.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "cli/program.h"
+#include "cli/report_results.h"
+
+namespace shodo {
+namespace {
+
+// ---- Maps on the same sub-patches
+
+/// A grey map of one mesh: areas, direct and ambient light sub-patch by sub-patch.
+MapCopy map_of(MeshKind kind, std::uint32_t width, std::uint32_t height, std::vector<double> area,
+               std::vector<float> direct, std::vector<float> ambient) {
+  return {1, {{kind, width, height, 0}}, std::move(area), std::move(direct), std::move(ambient)};
+}
+
+MapCopy grid(std::uint32_t width, std::uint32_t height, std::vector<float> direct) {
+  const std::size_t n = std::size_t{width} * height;
+  return map_of(MeshKind::kQuad, width, height, std::vector<double>(n, 1.0 / static_cast<double>(n)), direct,
+                std::vector<float>(n, 10.0f));
+}
+
+TEST(ReportMaps, TwiceTheCountsAreAveragedTwoByTwo) {
+  const MapCopy fine = grid(4, 2, {1, 3, 10, 20, 5, 7, 30, 40});
+  const ComparedMap map = bring_to(fine, grid(2, 1, {0, 0}));
+  ASSERT_EQ(map.direct.size(), 2u);
+  EXPECT_DOUBLE_EQ(map.direct[0], 4);   // 1 3 5 7
+  EXPECT_DOUBLE_EQ(map.direct[1], 25);  // 10 20 30 40
+  EXPECT_DOUBLE_EQ(map.ambient[0], 10);
+  EXPECT_DOUBLE_EQ(map.area[0], 0.5);
+}
+
+TEST(ReportMaps, HiddenPiecesHaveNoPartInAMean) {
+  MapCopy fine = grid(4, 2, {1, 3, 10, 20, 5, 7, 30, 40});
+  fine.area[0] = fine.area[1] = 0;
+  fine.area[5] = 0.375;  // weights of 5 and 7: 0.125 and 0.375
+  for (const std::size_t k : {2u, 3u, 6u, 7u}) fine.area[k] = 0;
+  const ComparedMap map = bring_to(fine, grid(2, 1, {0, 0}));
+  EXPECT_DOUBLE_EQ(map.direct[0], 6.5);
+  EXPECT_DOUBLE_EQ(map.area[0], 0.5);
+  EXPECT_EQ(map.area[1], 0);
+}
+
+TEST(ReportMaps, CoarserMapsRepeatAndOverlapByFractions) {
+  // Two sub-patches over three: the middle one is half of each.
+  const ComparedMap map = bring_to(grid(2, 1, {2, 8}), grid(3, 1, {0, 0, 0}));
+  EXPECT_DOUBLE_EQ(map.direct[0], 2);
+  EXPECT_DOUBLE_EQ(map.direct[1], 5);
+  EXPECT_DOUBLE_EQ(map.direct[2], 8);
+  // Three over two: a whole one and half of the middle one.
+  const ComparedMap other = bring_to(grid(3, 1, {3, 6, 12}), grid(2, 1, {0, 0}));
+  EXPECT_DOUBLE_EQ(other.direct[0], 4);
+  EXPECT_DOUBLE_EQ(other.direct[1], 10);
+}
+
+MapCopy triangle(std::uint32_t k, std::vector<float> direct) {
+  return map_of(MeshKind::kTriangle, k, k, std::vector<double>(std::size_t{k} * k, 1.0 / (k * k)), std::move(direct),
+                std::vector<float>(std::size_t{k} * k, 0.0f));
+}
+
+TEST(ReportMaps, PiecesOfTrianglesAverageFourToOne) {
+  const ComparedMap one = bring_to(triangle(2, {1, 2, 4, 9}), triangle(1, {0}));
+  EXPECT_DOUBLE_EQ(one.direct[0], 4);
+  // Edges divided by 4: row 0 has 7 pieces, then 5, 3, 1. Of the 4 pieces of edges divided by 2 the upright first one
+  // holds 0 1 2 and the first of row 1; the inverted one 3 and, of row 1, 8 9 10 (inverted, upright, inverted).
+  std::vector<float> fine(16);
+  for (std::size_t k = 0; k < 16; ++k) fine[k] = static_cast<float>(k);
+  const ComparedMap two = bring_to(triangle(4, fine), triangle(2, {0, 0, 0, 0}));
+  EXPECT_DOUBLE_EQ(two.direct[0], (0 + 1 + 2 + 7) / 4.0);
+  EXPECT_DOUBLE_EQ(two.direct[1], (3 + 8 + 9 + 10) / 4.0);
+  EXPECT_DOUBLE_EQ(two.direct[2], (4 + 5 + 6 + 11) / 4.0);
+  EXPECT_DOUBLE_EQ(two.direct[3], (12 + 13 + 14 + 15) / 4.0);
+}
+
+TEST(ReportMaps, AMapOnItsOwnSubPatchesStaysAsItIs) {
+  const std::vector<float> values{1, 2, 3, 4, 5, 6, 7, 8, 9};
+  for (const MapCopy& map : {grid(3, 3, values), triangle(3, values)}) {
+    const ComparedMap same = bring_to(map, map);
+    for (std::size_t k = 0; k < 9; ++k) EXPECT_DOUBLE_EQ(same.direct[k], static_cast<double>(values[k])) << k;
+  }
+}
+
+TEST(ReportMaps, AShadowEdgeCutsWherePiecesDiffer) {
+  // Mean total 10 + about 85: 2 % of it is 1.9 lx. Sub-patches of four pieces each: even, smooth, cut, dark and cut by
+  // less than 2 % of the mean.
+  const MapCopy fine = grid(8, 2, {100, 100, 100, 80, 200, 0, 1, 0,  //
+                                   100, 100, 90, 95, 200, 0, 0, 0});
+  const ComparedMap map = bring_to(fine, grid(4, 1, {0, 0, 0, 0}));
+  EXPECT_EQ(map.cut, (std::vector<std::uint8_t>{0, 0, 1, 0}));
+}
+
+TEST(ReportMaps, IdenticalMeansEveryBit) {
+  const MapCopy a = grid(2, 1, {0.0f, 1});
+  MapCopy b = a;
+  EXPECT_TRUE(identical(a, b));
+  b.direct[0] = -0.0f;
+  EXPECT_FALSE(identical(a, b));
+}
+
+// ---- Errors
+
+TEST(ReportError, IsTheRootMeanSquareOverAreaOverTheMean) {
+  // Areas 1 and 3, ambient off by 2 and 4: sqrt((1 * 4 + 3 * 16) / 4) = sqrt 13. Direct off by 1 where no edge cuts and
+  // by 5 where one does. Mean 20.
+  const ComparedMap truth{1, {1, 3}, {10, 20}, {5, 5}, {0, 1}};
+  const ComparedMap map{1, {1, 3}, {11, 15}, {7, 9}, {0, 0}};
+  const MapError error = map_error(truth, map, 20);
+  EXPECT_DOUBLE_EQ(error.ambient, std::sqrt(13.0) / 20);
+  EXPECT_DOUBLE_EQ(error.direct, 1.0 / 20);
+  EXPECT_DOUBLE_EQ(error.direct_cut, 5.0 / 20);
+  EXPECT_DOUBLE_EQ(error.total, std::sqrt((1 * 9.0 + 3 * 1.0) / 4) / 20);  // 1 + 2 and -5 + 4
+  EXPECT_DOUBLE_EQ(error.cut_area, 0.75);
+  EXPECT_EQ(error.left_out, 0);
+}
+
+TEST(ReportError, LeavesOutWhatTheCaseHasNoValueFor) {
+  const ComparedMap truth{1, {1, 3}, {10, 20}, {5, 5}, {0, 0}};
+  const ComparedMap map{1, {1, 0}, {12, 0}, {5, 0}, {0, 0}};
+  const MapError error = map_error(truth, map, 10);
+  EXPECT_DOUBLE_EQ(error.direct, 0.2);
+  EXPECT_DOUBLE_EQ(error.left_out, 0.75);
+}
+
+TEST(ReportError, ChannelsCountAlike) {
+  const ComparedMap truth{3, {2}, {0, 0, 0}, {10, 10, 10}, {0}};
+  const ComparedMap map{3, {2}, {0, 0, 0}, {10, 13, 10}, {0}};
+  EXPECT_DOUBLE_EQ(map_error(truth, map, 10).ambient, std::sqrt(9.0 / 3) / 10);
+}
+
+TEST(ReportError, TheWorstHundredthOfTheAreaCanBeLeftOut) {
+  // 1 of 100 areas is off by 30, the others by 1; then one of twice that area, half of which counts.
+  ComparedMap truth{1, {}, std::vector<double>(100, 0), std::vector<double>(100, 10), {}};
+  ComparedMap map = truth;
+  truth.area = map.area = std::vector<double>(100, 2);
+  truth.cut = map.cut = std::vector<std::uint8_t>(100, 0);
+  for (double& lx : map.ambient) lx += 1;
+  map.ambient[7] = 40;
+  EXPECT_NEAR(map_error(truth, map, 10).ambient_99, 0.1, 1e-12);
+  EXPECT_NEAR(map_error(truth, map, 10).ambient, std::sqrt((99 + 900) / 100.0) / 10, 1e-12);
+  truth.area[7] = 4;
+  const double whole = 0.01 * 202, kept = 4 - whole;
+  EXPECT_NEAR(map_error(truth, map, 10).ambient_99, std::sqrt((198 + kept * 900) / (202 - whole)) / 10, 1e-12);
+}
+
+TEST(ReportError, IsShownObjectByObject) {
+  MapCopy like = map_of(MeshKind::kQuad, 1, 1, {1, 1, 2}, {0, 0, 0}, {0, 0, 0});
+  like.meshes = {{MeshKind::kQuad, 1, 1, 0, "floor"}, {MeshKind::kQuad, 1, 1, 1, "floor"},
+                 {MeshKind::kQuad, 1, 1, 2, "lamp"}};
+  const ComparedMap truth{1, {1, 1, 2}, {0, 0, 0}, {5, 5, 5}, {0, 0, 0}};
+  const ComparedMap map{1, {1, 1, 2}, {0, 0, 0}, {6, 5, 8}, {0, 0, 0}};  // squares 1, 0 and 18
+  const std::vector<ObjectError> where = object_errors(truth, map, like, 10);
+  ASSERT_EQ(where.size(), 2u);
+  EXPECT_EQ(where[0].object, "lamp");
+  EXPECT_DOUBLE_EQ(where[0].square, 18.0 / 19);
+  EXPECT_DOUBLE_EQ(where[0].area, 0.5);
+  EXPECT_DOUBLE_EQ(where[0].error, 0.3);
+  EXPECT_DOUBLE_EQ(where[1].error, std::sqrt(0.5) / 10);
+}
+
+TEST(ReportError, OfPicturesIsInGreyLevels) {
+  const std::vector<std::uint8_t> a{0, 10, 255, 7}, b{3, 10, 250, 7};
+  EXPECT_DOUBLE_EQ(picture_error(a, b).mean, 2);
+  EXPECT_EQ(picture_error(a, b).largest, 5u);
+}
+
+TEST(ReportError, ACaseIsEfficientIfNoneIsCheaperAndBetter) {
+  const std::vector<CostAndError> points{{1, 9}, {2, 5}, {2, 6}, {3, 5}, {4, 1}, {4, 1}, {9, 0.5}, {9, 2}};
+  EXPECT_EQ(efficient(points), (std::vector<bool>{true, true, false, false, true, true, true, false}));
+}
+
+// ---- Rules
+
+/// Three grey patches of areas 1, 1, 2 and reflectance 0.5, 0.5, 0.8.
+PatchLight patches(std::vector<double> direct, std::vector<double> ambient) {
+  return {1, 2, 100, {1, 1, 2}, {0.5, 0.5, 0.8}, std::move(direct), std::move(ambient)};
+}
+
+TEST(ReportRules, LossAndBoundOfRule2) {
+  // Luminances by direct light 0.5 * 100 / pi = 15.9, 0.5 * 6 / pi = 0.95 and 0: the last two are below 2.
+  const RuleLoss loss =
+      rule_loss(patches({100, 6, 0}, {10, 20, 30}), patches({100, 6, 0}, {9, 15, 28}), {.rule2 = true});
+  EXPECT_EQ(loss.columns, 2u);
+  EXPECT_EQ(loss.rows, 0u);
+  EXPECT_DOUBLE_EQ(loss.largest_lx, 5);
+  EXPECT_DOUBLE_EQ(loss.mean_lx, (1 * 1 + 1 * 5 + 2 * 2) / 4.0);
+  EXPECT_NEAR(loss.bound_lx, 0.8 * 28 / (1 - 0.8), 1e-12);  // against 0.5 * 21
+}
+
+TEST(ReportRules, RepeatedRule2DropsOnlyWhatStaysDark) {
+  // Totals 21 and 28: luminances 3.3 and 7.1 are no longer below 2, and nothing stays dropped.
+  const PatchLight none = patches({100, 6, 0}, {10, 20, 30});
+  const RuleLoss loss = rule_loss(none, patches({100, 6, 0}, {9, 15, 28}), {.rule2_repeated = true});
+  EXPECT_EQ(loss.columns, 0u);
+  EXPECT_EQ(loss.bound_lx, 0);
+}
+
+TEST(ReportRules, ABrightRowLosesItsAmbientLight) {
+  // 0.5 * 1000 / pi = 159 is above 100: patch 0 is lit directly only.
+  const RuleLoss loss =
+      rule_loss(patches({1000, 60, 60}, {12, 20, 30}), patches({1000, 60, 60}, {0, 19, 29}), {.rule1 = true});
+  EXPECT_EQ(loss.rows, 1u);
+  EXPECT_DOUBLE_EQ(loss.bound_lx, 12);
+  EXPECT_DOUBLE_EQ(loss.largest_lx, 12);
+}
+
+TEST(ReportRules, TheBoundHoldsInASystemSolvedByHand) {
+  // Two patches that see only each other, rho 0.5 and 0.8, E0 100 and 0: E0 = 100 + 0.8 E1, E1 = 0.5 E0 give
+  // E0 = 1000 / 6, E1 = 500 / 6. Without column 1 (dark by direct light): E0 = 100, E1 = 50.
+  PatchLight none{1, 2, 100, {1, 1}, {0.5, 0.8}, {100, 0}, {400.0 / 6, 500.0 / 6}};
+  PatchLight ruled = none;
+  ruled.ambient = {0, 50};
+  const RuleLoss loss = rule_loss(none, ruled, {.rule2 = true});
+  EXPECT_NEAR(loss.largest_lx, 400.0 / 6, 1e-9);
+  EXPECT_NEAR(loss.bound_lx, 0.8 * 50 / 0.2, 1e-9);
+  EXPECT_LE(loss.largest_lx, loss.bound_lx);
+}
+
+TEST(ReportRules, CountsAndBoundsAreThoseOfTheSolver) {
+  std::vector<ReportJob> jobs(3);
+  for (ReportJob& job : jobs) {
+    job.scene = test_scene("box.scn");
+    job.memory = 8 << 20;
+    job.options.width = job.options.height = 8;
+  }
+  jobs[1].options.rules.rule2 = true;
+  jobs[2].options.rules.rule2_repeated = true;
+  ASSERT_TRUE(run_jobs(jobs, false).done());
+  for (const std::size_t k : {1u, 2u}) {
+    const RuleLoss loss = rule_loss(jobs[0].patches, jobs[k].patches, jobs[k].options.rules);
+    EXPECT_EQ(loss.columns, jobs[k].statistics.columns_emptied) << k;
+    EXPECT_NEAR(loss.bound_lx, jobs[k].statistics.rule2_bound_lx, 1e-9) << k;
+    EXPECT_LE(loss.largest_lx, loss.bound_lx + 0.01) << k;  // the solver's tolerance
+  }
+  EXPECT_GT(jobs[1].statistics.columns_emptied, 10u);
+}
+
+// ---- The list of cases
+
+TEST(ReportCases, NoneIsThereTwiceAndTheFirstIsTheBase) {
+  for (const bool quick : {false, true}) {
+    Options base;
+    if (quick) base.segments_first = base.segments_mixed = 1;
+    const std::vector<ReportCase> cases = report_cases(base);
+    ASSERT_GT(cases.size(), 8u);
+    EXPECT_EQ(cases[0].options.flags, FlagMode::kAuto);
+    EXPECT_EQ(rules_text(cases[0].options.rules), "none");
+    EXPECT_EQ(cases[0].options.refine, base.refine);
+    for (std::size_t a = 0; a < cases.size(); ++a) {
+      EXPECT_EQ(cases[a].number, a + 1);
+      for (std::size_t b = 0; b < a; ++b) EXPECT_FALSE(same_settings(cases[a].options, cases[b].options)) << a << b;
+    }
+    EXPECT_NE(find_case(cases, FlagMode::kOff, {}), nullptr);
+  }
+}
+
+TEST(ReportCases, TheReferenceIsNoCoarserThanTheBase) {
+  Options base;
+  base.refine = 3;
+  base.tiers = 1e-6;
+  base.segments_first = 256;
+  base.segments_mixed = 256;
+  base.flags = FlagMode::kOff;
+  const Options reference = reference_options(base);
+  EXPECT_EQ(reference.refine, 6);
+  EXPECT_EQ(reference.tiers, 1e-6);
+  EXPECT_EQ(reference.segments_first, 256u);
+  EXPECT_EQ(reference.segments_mixed, 256u);
+  EXPECT_EQ(reference.flags, FlagMode::kAuto);
+  base.tiers = 0;
+  EXPECT_EQ(reference_options(base).tiers, 0) << "0 is the contour integral, the finest";
+}
+
+TEST(ReportCases, RulesAreNamedAsTheOptionTakesThem) {
+  EXPECT_EQ(rules_text({}), "none");
+  EXPECT_EQ(rules_text({.rule1 = true, .rule2 = true, .rule3 = true}), "all");
+  EXPECT_EQ(rules_text({.rule1 = true, .rule2_repeated = true}), "1,2+");
+  EXPECT_EQ(rules_text({.rule3 = true, .rule3_diameters = 2.5}), "3:2.5");
+  EXPECT_EQ(rules_text({.blocks = true, .blocks_error = 0.01}), "blocks:0.01");
+}
+
+// ---- Cells, tables, plots
+
+TEST(ReportDocument, NumbersReadWellAndStayExactInCsv) {
+  EXPECT_EQ(shown_text(Cell::number(1234567)), "1,234,567");
+  EXPECT_EQ(shown_text(Cell::number(0)), "0");
+  EXPECT_EQ(shown_text(Cell::count(999)), "999");
+  EXPECT_EQ(shown_text(Cell::count(999499)), "999 k");
+  EXPECT_EQ(shown_text(Cell::count(999900)), "1.00 M");
+  EXPECT_EQ(shown_text(Cell::count(16886800139)), "16.9 G");
+  EXPECT_EQ(shown_text(Cell::bytes(1949456)), "1.95 MB");
+  EXPECT_EQ(shown_text(Cell::percent(0.01234)), "1.23 %");
+  EXPECT_EQ(shown_text(Cell::percent(0.00001234)), "0.00123 %");
+  EXPECT_EQ(shown_text(Cell::real(0.5)), "0.500");
+  EXPECT_EQ(shown_text(Cell::real(-12345.6)), "-12,346");
+  EXPECT_EQ(shown_text(Cell{}), "-");
+  EXPECT_EQ(exact_text(Cell::count(16886800139)), "16886800139");
+  EXPECT_EQ(exact_text(Cell::percent(0.0123456789)), "0.0123456789");
+  EXPECT_EQ(exact_text(Cell{}), "");
+}
+
+TEST(ReportDocument, ForeignCharactersCannotBreakOut) {
+  Document document;
+  document.title = "a <b> & \"c\"";
+  document.blocks.emplace_back(Table{"t.csv", "x,\"y\"", {{"n", "a|b", true}}, {{Cell::words("<i>,|\"")}}, {}});
+  EXPECT_NE(html_text(document).find("<h1>a &lt;b&gt; &amp; &quot;c&quot;</h1>"), std::string::npos);
+  EXPECT_NE(html_text(document).find("<td class=\"left\">&lt;i&gt;,|&quot;</td>"), std::string::npos);
+  EXPECT_NE(markdown_text(document).find("| \\<i\\>,\\|\" |"), std::string::npos);
+  ASSERT_EQ(csv_files(document).size(), 1u);
+  EXPECT_EQ(csv_files(document)[0].text, "scene,n\n\"x,\"\"y\"\"\",\"<i>,|\"\"\"\n");
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST(ReportPlot, RingsAndJoinsTheEfficientPoints) {
+  Plot plot{"p.svg", "title", "x", "y", {"one", "two"}, {}};
+  plot.points = {{10, 1, 1, 0, true, "first"}, {100, 0.1, 2, 1, true, "second"}, {1000, 2, 3, 1, false, "third"}};
+  const std::string svg = svg_text(plot);
+  EXPECT_EQ(count_of(svg, "r=\"8\""), 2u);
+  EXPECT_EQ(count_of(svg, "stroke-dasharray"), 1u);
+  for (const char* told : {"<title>first</title>", "<title>second</title>", "<title>third</title>"})
+    EXPECT_EQ(count_of(svg, told), 1u);
+  EXPECT_EQ(count_of(svg_text({"p.svg", "none", "x", "y", {}, {}}), "</svg>"), 1u);
+}
+
+TEST(ReportWorkstation, SecondsComeFromTheFileOrNot) {
+  const std::string json =
+      "{\"options\": \"--rules blocks\", \"day\": {\"direct\": 1.5, \"form_factors\": 2, \"solution\": 0.25,\n"
+      " \"map\": 0.125, \"picture\": 10, \"total\": 13.875}, \"evening\": {\"direct\": 3}}";
+  const auto day = workstation_seconds(json, "day");
+  ASSERT_TRUE(day.has_value());
+  EXPECT_EQ(day->direct, 1.5);
+  EXPECT_EQ(day->map, 0.125);
+  EXPECT_EQ(day->total, 13.875);
+  EXPECT_EQ(workstation_options(json), "--rules blocks");
+  EXPECT_FALSE(workstation_seconds(json, "evening").has_value()) << "not all numbers are there";
+  EXPECT_FALSE(workstation_seconds(json, "night").has_value());
+  EXPECT_FALSE(workstation_seconds("", "day").has_value());
+  EXPECT_FALSE(workstation_seconds("{\"day\": 3}", "day").has_value());
+}
+
+// ---- The command
+
+/// What is wrong with an HTML or SVG text written as XML; empty if every element is closed in order, every attribute is
+/// quoted and every entity is one of the four.
+std::string malformed(const std::string& text) {
+  std::vector<std::string> open;
+  for (std::size_t at = 0; at < text.size();) {
+    if (text[at] == '&') {
+      const std::size_t end = text.find(';', at);
+      const std::string name = text.substr(at, end == std::string::npos ? 0 : end - at + 1);
+      const std::set<std::string> known{"&amp;", "&lt;", "&gt;", "&quot;"};
+      if (!known.contains(name)) return "entity " + text.substr(at, 8);
+    }
+    if (text[at] == '>') return "a bare > at " + text.substr(at < 20 ? 0 : at - 20, 40);
+    if (text[at++] != '<') continue;
+    const std::size_t end = text.find('>', at);
+    if (end == std::string::npos) return "a tag without an end";
+    const std::string tag = text.substr(at, end - at);
+    at = end + 1;
+    if (tag[0] == '!') continue;
+    if (tag.find('<') != std::string::npos) return "a < in tag " + tag;
+    if (tag[0] == '/') {
+      if (open.empty() || "/" + open.back() != tag) return "closed out of order: " + tag;
+      open.pop_back();
+      continue;
+    }
+    const std::string name = tag.substr(0, tag.find_first_of(" /"));
+    if (count_of(tag, "=\"") * 2 != count_of(tag, "\"")) return "an attribute in " + tag;
+    if (tag.back() != '/') open.push_back(name);
+    if (name == "style") at = text.find("</style>", at);
+  }
+  return open.empty() ? "" : "not closed: " + open.back();
+}
+
+TEST(ReportDocument, TheCheckerOfHtmlSeesMistakes) {
+  EXPECT_EQ(malformed("<a b=\"c\"><d/>&amp;</a>"), "");
+  for (const char* wrong : {"<a>", "<a></b>", "<a><b></a></b>", "</a>", "<a b=c\"></a>", "&x;", "a & b", "a > b", "<a"})
+    EXPECT_NE(malformed(wrong), "") << wrong;
+}
+
+class ReportCommand : public testing::Test {
+ protected:
+  static Outcome report(const TestFolder& folder, const std::string& name, Running::Words more = {}) {
+    Running::Words words{"report", test_scene("box.scn"), "-o", folder / name, "--size", "48x40", "--antialias", "1"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  }
+};
+
+TEST_F(ReportCommand, WritesTheSameBytesTwice) {
+  const TestFolder folder;
+  const Outcome first = report(folder, "a"), second = report(folder, "b");
+  ASSERT_EQ(first.status, 0) << first.err;
+  ASSERT_EQ(second.status, 0) << second.err;
+  EXPECT_EQ(first.err, "") << "no terminal, no progress";
+  const std::vector<std::string> names = folder.entries("a");
+  EXPECT_EQ(names, folder.entries("b"));
+  for (const char* name : {"cases.csv", "flags.csv", "index.html", "paper.csv", "report.md", "tests-1.svg"})
+    EXPECT_TRUE(std::find(names.begin(), names.end(), name) != names.end()) << name;
+  for (const std::string& name : names) EXPECT_EQ(file_text(folder / ("a/" + name)), file_text(folder / ("b/" + name)));
+}
+
+TEST_F(ReportCommand, WritesHtmlThatIsWellFormedAndNeedsNothing) {
+  const TestFolder folder;
+  ASSERT_EQ(report(folder, "r").status, 0);
+  const std::string html = file_text(folder / "r/index.html");
+  EXPECT_EQ(malformed(html), "");
+  for (const char* foreign : {"<script", "src=", "href=", "url(", "@import", "<link"})
+    EXPECT_EQ(count_of(html, foreign), 0u) << foreign;
+  EXPECT_EQ(count_of(html, "http"), count_of(html, "http://www.w3.org/2000/svg"));
+  for (const std::string& name : folder.entries("r")) {
+    if (!name.ends_with(".svg")) continue;
+    const std::string svg = file_text(folder / ("r/" + name));
+    EXPECT_EQ(malformed(svg), "") << name;
+    EXPECT_EQ(count_of(html, svg), 1u) << name << " stands in the HTML too";
+  }
+}
+
+/// A Markdown table as rows of cells, without the line under its head.
+std::vector<std::vector<std::string>> markdown_table(const std::vector<std::string>& lines, std::size_t& at) {
+  std::vector<std::vector<std::string>> rows;
+  for (; at < lines.size() && lines[at].starts_with("|"); ++at) {
+    if (lines[at].starts_with("|:") || lines[at].starts_with("|-")) continue;
+    std::vector<std::string> cells;
+    for (std::size_t from = 2; from < lines[at].size();) {
+      const std::size_t to = lines[at].find(" |", from);
+      cells.push_back(to < from ? "" : lines[at].substr(from, to - from));
+      from = to + 3;
+    }
+    rows.push_back(cells);
+  }
+  return rows;
+}
+
+std::vector<std::string> csv_cells(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      cells.emplace_back();
+    else
+      cells.back() += c;
+  }
+  return cells;
+}
+
+/// "22.0 M" as 22e6, "1.23 %" as 0.0123; not a number: NaN.
+double read_back(std::string text) {
+  text.erase(std::remove(text.begin(), text.end(), ','), text.end());
+  std::istringstream in(text);
+  double value = 0;
+  std::string unit;
+  if (!(in >> value)) return std::nan("");
+  in >> unit;
+  if (!unit.empty() && unit != "B" && unit.back() == 'B') unit.pop_back();
+  const std::map<std::string, double> factors{{"", 1},   {"B", 1},   {"k", 1e3}, {"M", 1e6},
+                                              {"G", 1e9}, {"T", 1e12}, {"%", 0.01}};
+  const auto factor = factors.find(unit);
+  return factor == factors.end() ? std::nan("") : value * factor->second;
+}
+
+TEST_F(ReportCommand, SaysTheSameInMarkdownAndCsv) {
+  const TestFolder folder;
+  ASSERT_EQ(report(folder, "r").status, 0);
+  std::map<std::size_t, std::vector<std::string>> csv_by_columns;  // no two files have equally many
+  for (const char* name : {"paper.csv", "flags.csv", "cases.csv", "where.csv", "rules.csv"}) {
+    const std::vector<std::string> lines = lines_of(file_text(folder / ("r/" + std::string(name))));
+    ASSERT_GT(lines.size(), 1u);
+    csv_by_columns[csv_cells(lines[0]).size() - 1] = lines;
+  }
+  ASSERT_EQ(csv_by_columns.size(), 5u);
+  const std::vector<std::string> lines = lines_of(file_text(folder / "r/report.md"));
+  std::size_t tables = 0, numbers = 0;
+  for (std::size_t at = 0; at < lines.size(); ++at) {
+    if (!lines[at].starts_with("|")) continue;
+    const auto rows = markdown_table(lines, at);
+    if (!csv_by_columns.contains(rows[0].size())) continue;
+    ++tables;
+    const std::vector<std::string>& csv = csv_by_columns[rows[0].size()];
+    ASSERT_EQ(rows.size(), csv.size());
+    for (std::size_t r = 1; r < rows.size(); ++r) {
+      const std::vector<std::string> exact = csv_cells(csv[r]);
+      EXPECT_EQ(exact[0], "box");
+      for (std::size_t c = 0; c < rows[r].size(); ++c) {
+        const std::string& shown = rows[r][c];
+        if (exact[c + 1].empty() || exact[c + 1] == shown) continue;
+        const double a = read_back(shown), b = std::strtod(exact[c + 1].c_str(), nullptr);
+        EXPECT_NEAR(a, b, 0.0051 * std::abs(b)) << shown << " for " << exact[c + 1];  // three digits
+        ++numbers;
+      }
+    }
+  }
+  EXPECT_EQ(tables, 5u);
+  EXPECT_GT(numbers, 100u);
+}
+
+TEST_F(ReportCommand, SaysThatFlagsChangeNothing) {
+  const TestFolder folder;
+  ASSERT_EQ(report(folder, "r").status, 0);
+  const std::vector<std::string> lines = lines_of(file_text(folder / "r/flags.csv"));
+  ASSERT_GE(lines.size(), 2u);
+  for (std::size_t k = 1; k < lines.size(); ++k) {
+    EXPECT_EQ(csv_cells(lines[k])[2], "yes");
+    EXPECT_EQ(csv_cells(lines[k])[3], "yes");
+  }
+}
+
+TEST_F(ReportCommand, TakesTheWorkstationsSecondsFromBesideIt) {
+  const TestFolder folder;
+  folder.write("workstation.json",
+               "{\"box\": {\"direct\": 1.5, \"form_factors\": 2.5, \"solution\": 0.25, \"map\": 0.125, "
+               "\"picture\": 10.75, \"total\": 15.125}}");
+  ASSERT_EQ(report(folder, "r").status, 0);
+  const std::string csv = file_text(folder / "r/paper.csv");
+  for (const char* end : {",1.5\n", ",2.5\n", ",0.25\n", ",0.125\n", ",10.75\n", ",15.125\n"})
+    EXPECT_EQ(count_of(csv, end), 1u) << end;
+}
+
+TEST_F(ReportCommand, TakesSeveralScenes) {
+  const TestFolder folder;
+  ASSERT_EQ(report(folder, "r", {test_scene("sun.scn")}).status, 0);
+  const std::string csv = file_text(folder / "r/cases.csv");
+  EXPECT_GT(count_of(csv, "\nbox,"), 5u);
+  EXPECT_EQ(count_of(csv, "\nbox,"), count_of(csv, "\nsun,"));
+  EXPECT_EQ(count_of(csv, "scene,case,"), 1u);
+  EXPECT_EQ(malformed(file_text(folder / "r/index.html")), "");
+}
+
+TEST_F(ReportCommand, RefusesWhatItCannotDo) {
+  const TestFolder folder;
+  ASSERT_EQ(std::system(("mkdir " + (folder / "full") + " && touch " + (folder / "full/file")).c_str()), 0);
+  const std::string scene = test_scene("box.scn");
+  const struct {
+    Running::Words words;
+    int status;
+    std::string says;
+  } cases[] = {
+      {{"report", scene}, 2, "report: expected -o and where the report goes, found nothing"},
+      {{"report", "-o", folder / "x"}, 2, "report: expected a scene file, found none"},
+      {{"report", scene, "-o", "-"}, 2, "-o: expected the name of a folder, found '-'"},
+      {{"report", scene, "-o", folder / "x", "--flags", "off"}, 2, "--flags has no meaning for report"},
+      {{"report", scene, "-o", folder / "x", "--rules", "none"}, 2, "--rules has no meaning for report"},
+      {{"report", scene, "-o", folder / "x", "--csv", "t"}, 2, "--csv has no meaning for report"},
+      {{"report", scene, "-o", folder / "full"}, 1, "full: Directory not empty"},
+      {{"report", scene, folder / "none.scn", "-o", folder / "x"}, 1, "none.scn: No such file"},
+      {{"report", scene, "-o", folder / "x", "--camera", "moon"}, 2, "--camera: expected one of the scene's"},
+      {{"report", scene, "-o", folder / "x", "--memory", "4K"}, 4, "the memory budget of 4K is too small"},
+  };
+  for (const auto& c : cases) {
+    const Outcome outcome = run(c.words);
+    EXPECT_EQ(outcome.status, c.status) << c.says;
+    EXPECT_NE(outcome.err.find(c.says), std::string::npos) << outcome.err;
+    EXPECT_EQ(lines_of(outcome.err).size(), 1u) << outcome.err;
+  }
+  EXPECT_EQ(folder.entries(), std::vector<std::string>{"full"}) << "nothing was left behind";
+}
+
+TEST_F(ReportCommand, LeavesNothingWhenItIsInterrupted) {
+  const TestFolder folder;
+  Running running({"report", test_scene("box.scn"), "-o", folder / "r", "--refine", "12"});
+  usleep(300000);
+  kill(running.process(), SIGINT);
+  const Outcome outcome = running.wait();
+  EXPECT_EQ(outcome.status, 130) << outcome.err;
+  EXPECT_TRUE(folder.entries().empty());
+}
+
+}  // namespace
+}  // namespace shodo

@@ -1,0 +1,178 @@
+// Flags change no bit (auto), or what the scene asks for (scene): the values of both stages, against flags off.
+#include <regex>
+
+#include "support/flags_scenes.h"
+#include "support/files.h"
+
+namespace shodo {
+namespace {
+
+TEST(Flags, AutoChangesNoBitOfRandomScenes) {
+  double off = 0, on = 0;
+  for (std::uint32_t seed = 0; seed < 120; ++seed) {
+    SCOPED_TRACE(seed);
+    const Compared both = expect_same(random_scene(seed));
+    off += static_cast<double>(both.off.statistics.tests_ambient);
+    on += static_cast<double>(both.on.statistics.tests_ambient);
+    if (HasFailure()) break;
+  }
+  // Scenes of some 25 facets leave less to win than a room of 500.
+  EXPECT_LT(4 * on, off);
+}
+
+TEST(Flags, AutoChangesNoBitWhateverTheSegments) {
+  for (const std::uint32_t first : {1u, 16u, 64u, 256u}) {
+    for (const std::uint32_t mixed : {first, 256u}) {
+      Options options;
+      options.segments_first = first;
+      options.segments_mixed = mixed;
+      for (std::uint32_t seed = 200; seed < 204; ++seed) {
+        SCOPED_TRACE(seed);
+        expect_same(random_scene(seed), options);
+      }
+    }
+  }
+}
+
+/// Room, table, cupboard against the wall and a shelf in it: one object.
+std::string self_shadowing_room(double angle) {
+  SceneText scene(angle);
+  scene.object();
+  const char* tail = "patches 3 3 sub 2 2";
+  scene.box({0, 0, 0}, {4, 2.5, 3}, true, tail);
+  scene.box({1, 0.7, 1}, {2, 0.75, 2}, false, "patches 2 2 sub 1 1");
+  scene.box({3, 0, 0}, {4, 2, 0.5}, false, "patches 1 2 sub 2 2");
+  scene.box({3.2, 1, 0.5}, {3.8, 1.05, 0.8}, false, "patches 1 1 sub 2 2");
+  scene.line("light lamp point at" + scene.at({1.5, 2, 1.5}) + " intensity 100");
+  scene.line("light outside point at" + scene.at({6, 1, 1}) + " intensity 1000");
+  scene.line("light sun sun towards" + scene.at({0.3, -1, 0.2}) + " illuminance 5000");
+  return scene.text();
+}
+
+TEST(Flags, AutoChangesNoBitWhereOneObjectShadowsItself) {
+  for (const double angle : {0.0, 0.1, 0.7}) {
+    const Compared both = expect_same(self_shadowing_room(angle));
+    EXPECT_GT(both.off.statistics.tests_ambient, 5 * both.on.statistics.tests_ambient);
+    EXPECT_GT(both.off.statistics.tests_direct, 3 * both.on.statistics.tests_direct);
+  }
+}
+
+TEST(Flags, AnEmptyRoomNeedsNoAmbientSegmentInAnyPosition) {
+  for (const double angle : {0.0, 0.4}) {
+    SceneText scene(angle);
+    scene.object();
+    scene.box({0, 0, 0}, {4, 2.5, 3}, true, "patches 4 4 sub 1 1");
+    scene.line("light lamp point at" + scene.at({1.5, 2, 1.5}) + " intensity 100");
+    const Compared both = expect_same(scene.text());
+    EXPECT_GT(both.off.statistics.segments_ambient, 10000u);
+    if (angle == 0) {
+      EXPECT_EQ(both.on.statistics.segments_ambient, 0u);
+    }
+    EXPECT_LT(both.on.statistics.tests_ambient, both.off.statistics.tests_ambient / 20);
+  }
+}
+
+/// A lamp over a screen over a floor, in a box; `screen` and `floor` get the flags given.
+std::string screened(const std::string& screen, const std::string& floor, const std::string& lamp) {
+  SceneText scene;
+  scene.line("object floor " + floor);
+  scene.quad({{0, 0, 0}, {0, 0, 2}, {2, 0, 2}, {2, 0, 0}}, "patches 4 4 sub 1 1");
+  scene.line("object screen " + screen);
+  scene.quad({{-1, 1, -1}, {3, 1, -1}, {3, 1, 3}, {-1, 1, 3}}, "patches 1 1 sub 1 1");
+  scene.line("object roof");
+  scene.quad({{0, 2, 0}, {2, 2, 0}, {2, 2, 2}, {0, 2, 2}}, "patches 4 4 sub 1 1");
+  scene.line("object shelf");
+  scene.quad({{0, 1.9, 0}, {0, 1.9, 0.5}, {0.5, 1.9, 0.5}, {0.5, 1.9, 0}}, "patches 1 1 sub 1 1");
+  scene.line("light lamp point at 1 1.5 1 intensity 100 " + lamp);
+  scene.line("light down area quad 0.9 1.7 0.9 1.1 1.7 0.9 1.1 1.7 1.1 0.9 1.7 1.1 luminance 1000 " + lamp);
+  return scene.text();
+}
+
+float floor_lux(const LitBits& bits) { return std::bit_cast<float>(bits.sub_patch[5]); }
+double floor_ambient(const LitBits& bits) { return std::bit_cast<double>(bits.ambient[5]); }
+
+TEST(Flags, SceneFlagsAreReadInSceneModeOnly) {
+  const std::string text = screened("direct -blocks ambient -blocks", "", "");
+  const Compared both = expect_same(text);
+  EXPECT_EQ(floor_lux(both.on), 0);
+  EXPECT_TRUE(lit(screened("", "", ""), FlagMode::kScene) == both.on);
+}
+
+TEST(Flags, AnObjectThatDoesNotBlockLetsLightOfThatSetPass) {
+  const LitBits shaded = lit(screened("", "", ""), FlagMode::kScene);
+  const LitBits direct = lit(screened("direct -blocks", "", ""), FlagMode::kScene);
+  const LitBits ambient = lit(screened("ambient -blocks", "", ""), FlagMode::kScene);
+  EXPECT_EQ(floor_lux(shaded), 0);
+  EXPECT_GT(floor_lux(direct), 0);
+  EXPECT_EQ(floor_lux(ambient), 0);
+  EXPECT_GT(floor_ambient(ambient), floor_ambient(shaded));
+}
+
+TEST(Flags, LightGoesUntestedToAnObjectThatNothingShadows) {
+  const LitBits lit_floor = lit(screened("", "direct -shadowed_towards", ""), FlagMode::kScene);
+  EXPECT_EQ(lit_floor.sub_patch[5], lit(screened("direct -blocks", "", ""), FlagMode::kScene).sub_patch[5]);
+  EXPECT_EQ(floor_lux(lit(screened("", "direct -shadowed_leaving", ""), FlagMode::kScene)), 0);
+}
+
+TEST(Flags, LightGoesUntestedFromALightThatNothingShadows) {
+  const LitBits lit_floor = lit(screened("", "", "direct -shadowed_leaving"), FlagMode::kScene);
+  EXPECT_EQ(lit_floor.sub_patch[5], lit(screened("direct -blocks", "", ""), FlagMode::kScene).sub_patch[5]);
+  EXPECT_EQ(floor_lux(lit(screened("", "", "direct -shadowed_towards"), FlagMode::kScene)), 0);
+}
+
+TEST(Flags, APairOfSurfacesIsUntestedOnlyIfNeitherWayIsTested) {
+  const LitBits shaded = lit(screened("", "", ""), FlagMode::kScene);
+  // One way nothing is tested, the other way all is.
+  for (const std::string way : {"ambient -shadowed_towards", "ambient -shadowed_leaving"}) {
+    EXPECT_EQ(floor_ambient(lit(screened("", way, ""), FlagMode::kScene)), floor_ambient(shaded)) << way;
+  }
+  const LitBits both = lit(screened("", "ambient -shadowed_towards -shadowed_leaving", ""), FlagMode::kScene);
+  EXPECT_GT(floor_ambient(both), floor_ambient(shaded));
+}
+
+TEST(Flags, AGivenPlusIsWhatAutoDoesAnyway) {
+  const std::string set = "+blocks +shadowed_towards +shadowed_leaving", all = "direct " + set + " ambient " + set;
+  EXPECT_TRUE(lit(screened(all, all, ""), FlagMode::kScene) == lit(screened("", "", ""), FlagMode::kAuto));
+}
+
+TEST(Flags, WhatIsFoundIsWhatStandsBetween) {
+  const LitBits bits = lit(screened("", "", ""), FlagMode::kAuto);
+  const std::string none = " -blocks -shadowed_towards -shadowed_leaving";
+  EXPECT_EQ(bits.found[0],
+            " direct -blocks +shadowed_towards -shadowed_leaving ambient -blocks +shadowed_towards +shadowed_leaving");
+  EXPECT_TRUE(bits.found[1].starts_with(" direct +blocks")) << bits.found[1];
+  EXPECT_EQ(bits.found[2].substr(0, 15), " direct -blocks") << bits.found[2];
+  EXPECT_EQ(bits.found[4], " direct -blocks -shadowed_towards +shadowed_leaving ambient" + none);
+}
+
+TEST(Flags, WhatWasNotFoundCanBeClearedInTheSceneAndNoBitChanges) {
+  for (std::uint32_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const std::string text = random_scene(seed);
+    const LitBits found = lit(text, FlagMode::kAuto);
+    EXPECT_TRUE(found == lit(with_flags(text, found.found), FlagMode::kScene));
+    if (HasFailure()) break;
+  }
+}
+
+/// With a patch for 16 and without sub-patches; doc/flags.md has the ratios of the full rooms, which are larger.
+TEST(Flags, RoomsTakeATwentiethAndAFifthOfTheTestsForTheSameBits) {
+  for (const std::string room : {"day", "evening"}) {
+    SCOPED_TRACE(room);
+    Options options;
+    options.refine = 0.25;
+    options.segments_mixed = 16;
+    FolderReader folder(source_folder() + "/data");
+    std::string_view shared, top;
+    ASSERT_TRUE(folder.read("room.scn", shared) && folder.read(room + ".scn", top));
+    const auto coarse = [](std::string_view text) {
+      return std::regex_replace(std::string(text), std::regex("( sub|\nsub \\w+) \\d+ \\d+"), "$1 1 1");
+    };
+    const Compared both = expect_same(coarse(top), options, {{"room.scn", coarse(shared)}});
+    EXPECT_GE(both.off.statistics.tests_ambient, 20 * both.on.statistics.tests_ambient);
+    EXPECT_GE(both.off.statistics.tests_direct, 5 * both.on.statistics.tests_direct);
+  }
+}
+
+}  // namespace
+}  // namespace shodo
