@@ -1,4 +1,5 @@
-// What stands behind shodo.h: the plain structures that the stages hand on, in one place. The program reads maps and tables from here.
+// What stands behind shodo.h: the plain structures that the stages hand on, in one place. The program reads maps and
+// tables from here.
 #pragma once
 
 #include <cstddef>

@@ -26,7 +26,8 @@ struct Options {
   double patch_size = 0;               // longest edge, scene units; 0: 1/24 of the scene's diagonal
   double sub_patch_size = 0;           // longest edge, scene units; 0: a third of the patch
   double refine = 1;                   // patch counts along each edge times this
-  double tiers = 1e-3;                 // error allowed to a form factor's geometry, of A_j / (pi d^2); 0: always the contour integral
+  double tiers = 1e-3;                 // error allowed to a form factor's geometry, of A_j / (pi d^2); 0: the contour
+                                       // integral always
   std::uint32_t segments_first = 16;   // segments a pair of patches: 1, 16, 64 or 256
   std::uint32_t segments_mixed = 64;   // the same, where some of the first are blocked and some not
   bool scale_rows = true;

@@ -20,7 +20,8 @@ struct Model;
 Status load(std::string_view name, std::string_view text, const Reader& reader, const Options& options, void* memory,
             std::size_t bytes, Model*& model);
 
-/// Direct and ambient illuminance and the maps; from the start if called again. Errors: kMemory, before anything is lit;
+/// Direct and ambient illuminance and the maps; from the start if called again. Errors: kMemory, before anything is
+/// lit;
 /// kInterrupted.
 Status solve(Model& model, const Progress& progress);
 

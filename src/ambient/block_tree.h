@@ -4,7 +4,8 @@
 // nv patches is a binary tree, each block a rectangle of patches cut in two across its longer side (in length, not in
 // patches) at the middle. Nodes are numbered in preorder: a block, then everything in it; so the first part of the
 // block at node a is node a + 1, and the next part of a block starts where the last one ends.
-// A mesh has blocks if it is a planar convex quadrilateral or a triangle of several patches; for rule 3 its patches must
+// A mesh has blocks if it is a planar convex quadrilateral or a triangle of several patches; for rule 3 its patches
+// must
 // have equal areas to kEqualAreas. Grids (curved, several cells) and cut or twisted quadrilaterals have none: their
 // patches stay on their own. A triangle's patches all stand directly in its one block.
 #pragma once

@@ -1,5 +1,5 @@
 // The coarse correction: one value a mesh, so that light which goes round a room many times is found at once (design:
-// solution).
+// solution; deviation D5).
 //
 // Let every patch of a mesh g change by the same delta_g. Weighted with A_i / s_i (s_i: the row's scale) the
 // equations of a mesh's patches add up to

@@ -9,13 +9,15 @@
 //
 // Blocks send and gather like patches (ambient/matrix.h): before the patches of a mesh get their new values, what its
 // blocks have gathered is handed down to them; after the last of them, what they send is summed up to the blocks, which
-// then send it on. No link has both ends in one mesh unless both are patches, so this is still Gauss-Seidel, mesh by mesh.
+// then send it on. No link has both ends in one mesh unless both are patches, so this is still Gauss-Seidel, mesh by
+// mesh.
 //
 // Certified bound. After a sweep, before a correction, the residual of patch i is sum over j > i of M_ij (new_j -
 // old_j), M = F rho, hence at most U max|new - old|, U the largest upper row sum of M; rounding adds at most (n + 16)
 // 2^-52 max E. With q the largest row sum of M the error of every a_i is at most
 //     (U max|new - old| + (n + 16) 2^-52 max E) / (1 - q).
-// With blocks U is q, and n counts them too. It bounds the error against the exact solution of the stored system. Sweeps end when it is within the tolerance, when
+// With blocks U is q, and n counts them too. It bounds the error against the exact solution of the stored system.
+// Sweeps end when it is within the tolerance, when
 // rounding is all that is left of it, or when nothing gets better any more (rows that sum to more than 1 / rho,
 // possible only without scaling: the bound is then kNoBound).
 // Bytes: 16 channels a node for the fluxes, 8 g (2 + channels) for means of the g meshes.

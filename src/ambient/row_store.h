@@ -1,6 +1,6 @@
 // Rows of the exchange between patches as a stream of 16-bit words (paper 3.2; design: rows).
 //
-// Only the upper triangle is kept: row i holds the columns j > i, ascending, of the symmetric matrix
+// Deviation D2: only the upper triangle is kept: row i holds the columns j > i, ascending, of the symmetric matrix
 //     v_ij = G_ij V_ij / sqrt(A_i A_j)   (G geometric factor, V visible fraction, A visible areas)
 // so that F_ij = v_ij sqrt(A_j / A_i), F_ji = v_ij sqrt(A_i / A_j): half the memory of full rows, and reciprocity holds
 // exactly in what is stored. An entry is the gap to the previous column (from i itself for the first; 65,535 means

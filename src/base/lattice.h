@@ -1,7 +1,8 @@
 // The integer lattice on which visibility and the picture are decided (design: exact visibility).
 //
 // Scene coordinates (scene units, already centred on the scene's box) times a power of two, rounded half away from the
-// centre, so that a mirrored scene rounds mirrored. Coordinates lie within +-(2^19 - 16). Vertices are even, samples odd.
+// centre, so that a mirrored scene rounds mirrored. Coordinates lie within +-(2^19 - 16). Vertices are even, samples
+// odd.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // Direct illuminance (paper 2.1): every sub-patch, and the sums over a patch that the ambient stage starts from.
 //
 // Patches ascending, within a patch its sub-patches ascending, within a sub-patch the lights as the file has them: sums
-// are doubles in this order. E0 of a patch is the area-weighted mean over its sub-patches that are not hidden. Bytes
-// left: 4 channels + 1 a sub-patch, 8 channels + 8 a patch; scratch as light/sources.h says.
+// are doubles in this order. E0 of a patch is the area-weighted mean over its sub-patches that are not hidden
+// (deviation D4). Bytes left: 4 channels + 1 a sub-patch, 8 channels + 8 a patch; scratch as light/sources.h says.
 #include "light/direct.h"
 
 #include "light/receiver.h"

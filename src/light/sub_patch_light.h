@@ -1,4 +1,4 @@
-// The direct illuminance of one sub-patch: an area mean (paper 2.1, 2.3).
+// The direct illuminance of one sub-patch: an area mean (paper 2.1, 2.3; deviation D6).
 //
 // Each light is asked at the centre and next to the corners. Where these five (four of a triangle) agree on what is
 // visible, and the illuminance is nearly linear, the mean is a rule of their values that is exact for polynomials of

@@ -1,5 +1,5 @@
 // The triangles that block, in a tree of boxes, so that the few which can come between two places are found fast
-// (paper 3.1; design: the table of possible blockers, refined from mesh to patch to segment).
+// (paper 3.1; design: the table of possible blockers, refined from mesh to patch to segment; deviation D11).
 //
 // A facet is one triangle of a polygon or two that follow each other. Facets are sorted by median cuts; a node of the
 // implicit tree (children 2 k + 1 and 2 k + 2) holds an even share of them.

@@ -1,4 +1,5 @@
-// Hidden samples (paper 2.1 has none; design: direct light): inside an object or under one that stands on the surface.
+// Hidden samples (paper 2.1 has none: deviation D4; design: direct light): inside an object or under one that stands on
+// the surface.
 //
 // A sample that sees backs all round is enclosed by them. Sixteen directions in four rings over the hemisphere, from
 // nearly along the normal to nearly along the surface, each found on the lattice; the first that meets a front or

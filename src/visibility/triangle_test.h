@@ -1,4 +1,4 @@
-// Whether a triangle blocks a segment or a ray, decided in 64-bit integers (design: exact visibility).
+// Whether a triangle blocks a segment or a ray, decided in 64-bit integers (design: exact visibility; deviation D8).
 #pragma once
 
 #include "visibility/geometry.h"
