@@ -1,7 +1,7 @@
 #include "memory_plan.h"
 
 #include "ambient/ambient_memory.h"
-#include "light/area_source.h"
+#include "light/sources.h"
 #include "model.h"
 #include "picture/picture.h"
 
@@ -19,18 +19,6 @@ std::uint64_t block(std::uint64_t count) {
 std::uint64_t direct_result_bytes(const Scene& scene) {
   const std::uint64_t n = scene.patch_count, c = scene.channels, s = scene.sub_patch_count;
   return block<float>(s * c) + block<std::uint8_t>(s) + block<double>(n * c) + 2 * block<float>(n);
-}
-
-/// While the direct stage runs: 80 bytes a light, 72 a face that emits (light/sources.h).
-std::uint64_t direct_scratch_bytes(const Scene& scene) {
-  std::uint64_t emitters = 0;
-  for (const Light& light : scene.lights) {
-    if (light.kind == LightKind::kArea) ++emitters;
-    if (light.kind != LightKind::kPolyhedron) continue;
-    const Object& object = scene.objects[light.object];
-    for (std::uint32_t m = 0; m < object.mesh_count; ++m) emitters += cell_count(scene.meshes[object.first_mesh + m]);
-  }
-  return 80 * scene.lights.size() + block<Emitter>(emitters) + block<LatticeBox>(emitters);
 }
 
 /// Stays when the stage is done: IlluminanceMaps.
@@ -55,7 +43,7 @@ MemoryPlan plan_memory(const Model& model, bool picture) {
   const std::uint64_t flags = model.options.flags == FlagMode::kOff ? 0 : FlagTables::bytes(scene);
   const std::uint64_t blockers = Intersector::bytes(model.geometry, model.options.flags);
   std::uint64_t held = model.after_load + flags + direct_result_bytes(scene);
-  plan.direct = held + blockers + direct_scratch_bytes(scene);
+  plan.direct = held + blockers + Sources::bytes(scene);
   plan.ambient = held + (scene.patch_count > 0 ? blockers : 0) + smallest_ambient_bytes(scene, model.options);
   held += ambient_result_bytes(scene);
   plan.map = held + map_bytes(scene, model.options);

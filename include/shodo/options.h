@@ -20,7 +20,7 @@ struct Rules {
 };
 
 struct Options {
-  FlagMode flags = FlagMode::kAuto;
+  FlagMode flags = FlagMode::kAuto;     // lossless; the rules are none (deviation D9)
   Rules rules;
   double tolerance = 1e-4;             // bound on the solver's error, of the largest illuminance
   double patch_size = 0;               // longest edge, scene units; 0: 1/24 of the scene's diagonal

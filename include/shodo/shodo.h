@@ -21,8 +21,7 @@ Status load(std::string_view name, std::string_view text, const Reader& reader, 
             std::size_t bytes, Model*& model);
 
 /// Direct and ambient illuminance and the maps; from the start if called again. Errors: kMemory, before anything is
-/// lit;
-/// kInterrupted.
+/// lit; kInterrupted.
 Status solve(Model& model, const Progress& progress);
 
 /// The picture, line by line from the top, of a solved model. Errors: kMemory, before the first line; kInterrupted;

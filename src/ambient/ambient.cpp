@@ -24,8 +24,7 @@ bool take_solver(Arena& arena, const Scene& scene, std::size_t nodes, Solver& so
 }
 
 std::uint64_t solver_bytes(const Scene& scene, const Options& options) {
-  const std::uint64_t nodes = std::uint64_t{scene.patch_count} + block_count(scene, options.rules);
-  const std::uint64_t values = nodes * scene.channels;
+  const std::uint64_t values = std::uint64_t{node_count(scene, options.rules)} * scene.channels;
   return 16 * values + 8 * std::uint64_t{Coarse::group_count(scene)} * (2 + scene.channels);
 }
 

@@ -1,13 +1,12 @@
 // Meshes taken as a whole, and in parts: the blocks of rule 3 and of `--rules blocks` (paper 3.2 rule 3).
 //
-// Rule 3 knows one block a mesh, with all patches directly in it. `blocks` carries it on: a quadrilateral mesh of nu x
-// nv patches is a binary tree, each block a rectangle of patches cut in two across its longer side (in length, not in
-// patches) at the middle. Nodes are numbered in preorder: a block, then everything in it; so the first part of the
-// block at node a is node a + 1, and the next part of a block starts where the last one ends.
-// A mesh has blocks if it is a planar convex quadrilateral or a triangle of several patches; for rule 3 its patches
-// must
-// have equal areas to kEqualAreas. Grids (curved, several cells) and cut or twisted quadrilaterals have none: their
-// patches stay on their own. A triangle's patches all stand directly in its one block.
+// Rule 3 knows one block a mesh, with all patches directly in it. `blocks` carries it on: a quadrilateral mesh of nu
+// x nv patches is a binary tree, each block a rectangle of patches cut in two across its longer side (in length, not
+// in patches) at the middle. Nodes are numbered in preorder: a block, then everything in it; so the first part of the
+// block at node a is node a + 1, and the next part of a block starts where the last one ends. A mesh has blocks if it
+// is a planar convex quadrilateral or a triangle of several patches; for rule 3 its patches must have equal areas to
+// kEqualAreas. Grids (curved, several cells) and cut or twisted quadrilaterals have none: their patches stay on their
+// own. A triangle's patches all stand directly in its one block.
 #pragma once
 
 #include <cstdint>
@@ -72,6 +71,10 @@ class TreeWalk {
 
 /// Blocks of the whole scene.
 std::uint32_t block_count(const Scene& scene, const Rules& rules);
+/// Patches and blocks: what the ambient stage has arrays over.
+inline std::size_t node_count(const Scene& scene, const Rules& rules) {
+  return std::size_t{scene.patch_count} + block_count(scene, rules);
+}
 /// The most blocks that a patch of the scene is in.
 std::uint32_t block_depth(const Scene& scene, const Rules& rules);
 

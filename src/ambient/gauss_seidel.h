@@ -17,10 +17,9 @@
 // 2^-52 max E. With q the largest row sum of M the error of every a_i is at most
 //     (U max|new - old| + (n + 16) 2^-52 max E) / (1 - q).
 // With blocks U is q, and n counts them too. It bounds the error against the exact solution of the stored system.
-// Sweeps end when it is within the tolerance, when
-// rounding is all that is left of it, or when nothing gets better any more (rows that sum to more than 1 / rho,
-// possible only without scaling: the bound is then kNoBound).
-// Bytes: 16 channels a node for the fluxes, 8 g (2 + channels) for means of the g meshes.
+// Sweeps end when it is within the tolerance, when rounding is all that is left of it, or when nothing gets better
+// any more (rows that sum to more than 1 / rho, possible only without scaling: the bound is then kNoBound). Bytes: 16
+// channels a node for the fluxes, 8 g (2 + channels) for means of the g meshes.
 #pragma once
 
 #include <span>

@@ -4,11 +4,11 @@
 // covered by exactly one *link*, of two nodes. What is split depends on the geometry of the two nodes only, never on
 // what was computed before, so any row can be found again:
 //
-//     rule 3    links are patch to patch or patch to mesh. A patch is linked to a whole mesh if their centres are more
+//     rule 3    (deviation D13) links are patch to patch or patch to mesh. A patch is linked to a whole mesh if their centres are more
 //               than D diameters of the mesh apart. Where that would do in both directions between two meshes, the one
 //               is taken as a whole that saves more links; of equals the second.
-//     blocks    a link is good enough if its estimated error is at most REL (link_error() in link_walk.cpp), or its ends
-//               are patches; else the longer of its ends is split.
+//     blocks    a link is good enough if its estimated error is at most REL (judge_blocks() in link_walk.cpp), or its
+//               ends are patches; else the longer of its ends is split.
 //
 // Row a lists the links from node a to later ones, ascending. A block hands on to its parts the nodes for which it must
 // be split itself, so a pair of ancestors is judged once for all the rows below it. Rows may be asked for in any order;

@@ -144,10 +144,6 @@ bool has_own_errors(const Scene& scene, const Rules& rules) {
   return rules.rule2_repeated || block_count(scene, rules) > 0;
 }
 
-std::size_t node_count(const Scene& scene, const Rules& rules) {
-  return std::size_t{scene.patch_count} + block_count(scene, rules);
-}
-
 std::size_t scratch_words(const Scene& scene, const Options& options) {
   const std::size_t nodes = node_count(scene, options.rules);
   return row_words(nodes > 0 ? nodes - 1 : 0, options.row_value_bits == 64);

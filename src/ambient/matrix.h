@@ -5,21 +5,19 @@
 // f_i = s_i / R_i. The row's scale s_i is found in the first pass, when row i's last entry is known, and is all that a
 // row needs besides its entries: reciprocity of what is stored stays exact.
 //
-// Row sums (deviation D3). S is the sum of the stored F_ij, L the part of the hemisphere that area lights and openings
-// fill. In a
-// closed scene S + L = 1. The row is scaled to S = 1 - L if S + L > 1, or if it is below 1 by no more than its
-// estimated error:
+// Row sums (deviation D3). S is the sum of the stored F_ij, L the part of the hemisphere that area lights and
+// openings fill. In a closed scene S + L = 1. The row is scaled to S = 1 - L if S + L > 1, or if it is below 1 by no
+// more than its estimated error:
 //     the tiers' errors added up + 3 standard errors of its mixed visible fractions + 2^-12 S (rounding of values)
 //     + L / 64 (direct light samples its shadows) + S h / 8 if a part of the patch is hidden (its share is found twice,
 //     by sub-patches and by segments), h = (1 - visible share) / visible share, at most 1.
-// If rule 2 left a column out, rows are scaled down only: what is missing then is missing on purpose.
+// If rule 2 left a column out, rows are scaled down only (deviation D14): what is missing then is missing on purpose.
 //
 // Blocks. A link to a block stands for one to each patch in it, in proportion to their visible areas: with R_b^2 the
 // sum of R_j^2 over its patches, F_ij = f_i v_ib R_j^2 / R_b, which for equal areas is rule 3's F_im / p. So a block
-// has
-// sums like a patch, and gives each of its parts c the share R_c / R_b of them.
-// Bytes: 8 a node (f), one row of scratch, the coarse matrix, 1 + 1 a node with rules 1 and 2, the lists of
-// ambient/link_walk.h and 16 a node of errors with blocks or rule 2+, and the rows.
+// has sums like a patch, and gives each of its parts c the share R_c / R_b of them. Bytes: 8 a node (f), one row of
+// scratch, the coarse matrix, 1 + 1 a node with rules 1 and 2, the lists of ambient/link_walk.h and 16 a node of
+// errors with blocks or rule 2+, and the rows.
 #pragma once
 
 #include <cstdint>

@@ -33,7 +33,7 @@ bool takes_part(const Surfaces& surfaces, std::uint32_t node) {
 
 std::uint64_t Sparsity::bytes(const Scene& scene, const Rules& rules) {
   if (!judges(rules)) return 0;
-  return 2 * ((std::uint64_t{scene.patch_count} + block_count(scene, rules) + 7) / 8 * 8);
+  return 2 * ((std::uint64_t{node_count(scene, rules)} + 7) / 8 * 8);
 }
 
 Status Sparsity::take(Arena& arena, Surfaces& surfaces, const DirectLight& direct, const Rules& rules) {

@@ -8,12 +8,12 @@
 //
 // What each round of 2+ adds is a *generation*: rows of generation g hold the pairs that are first needed then, so no
 // pair is computed twice and rows already stored stay. A pair is needed if one of the two receives from the other; a
-// link between blocks if any of their patches does. The last of kGenerations rounds puts every column back, which ends
-// it.
-// Loss. Rule 2 leaves out at most sum over dropped j of rho_j F_ij E_j of row i; rows sum to at most 1, and what is
-// lost
-// goes round like all light, so no E is too small by more than max over dropped j of rho_j E_j / (1 - max rho), E_j as
-// solved (loss_bound). Bytes: 2 a node.
+// link between blocks if any of their patches does. The last of kGenerations rounds puts every column back, which
+// ends it.
+//
+// Loss. Rule 2 leaves out at most sum over dropped j of rho_j F_ij E_j of row i; rows sum to at most 1, and
+// what is lost goes round like all light, so no E is too small by more than max over dropped j of rho_j E_j / (1 -
+// max rho), E_j as solved (loss_bound). Bytes: 2 a node.
 #pragma once
 
 #include <cstdint>

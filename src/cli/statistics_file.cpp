@@ -106,15 +106,6 @@ class Json {
   int depth_ = 0;
 };
 
-std::string_view flag_mode_name(FlagMode mode) {
-  switch (mode) {
-    case FlagMode::kOff: return "off";
-    case FlagMode::kAuto: return "auto";
-    case FlagMode::kScene: return "scene";
-  }
-  return "";
-}
-
 }  // namespace
 
 std::string statistics_json(const Model& model, const std::string& scene, const Watch& watch) {
@@ -125,7 +116,8 @@ std::string statistics_json(const Model& model, const std::string& scene, const 
       .add("meshes", s.meshes)
       .add("patches", s.patches);
   json.add("sub_patches", s.sub_patches).add("channels", s.channels);
-  json.add("flags", flag_mode_name(model.options.flags)).add("rules", std::string_view(rules_text(model.options.rules)));
+  json.add("flags", flags_text(model.options.flags));
+  json.add("rules", std::string_view(rules_text(model.options.rules)));
   json.open("lattice")
       .add("step", s.lattice_step)
       .add("inserted", s.vertices_inserted)

@@ -15,8 +15,9 @@ Vec3 unit_of(const LatticeVector& v) {
 }  // namespace
 
 Status Sources::prepare(Arena& arena) {
-  if (!arena.take("light sources", count(), sources_) || !arena.take("emitters", count_emitters(), emitters_) ||
-      !arena.take("emitters' ends", count_emitters(), emitter_ends_)) {
+  const std::uint32_t emitters = count_emitters(*scene_);
+  if (!arena.take("light sources", count(), sources_) || !arena.take("emitters", emitters, emitters_) ||
+      !arena.take("emitters' ends", emitters, emitter_ends_)) {
     return arena.refused();
   }
   std::uint32_t next = 0;
@@ -32,15 +33,21 @@ Status Sources::prepare(Arena& arena) {
   return {};
 }
 
-std::uint32_t Sources::count_emitters() const {
+std::uint32_t Sources::count_emitters(const Scene& scene) {
   std::uint32_t total = 0;
-  for (std::uint32_t l = 0; l < count(); ++l) {
-    if (light(l).kind == LightKind::kArea) ++total;
-    if (light(l).kind != LightKind::kPolyhedron) continue;
-    const Object& object = scene_->objects[light(l).object];
-    for (std::uint32_t m = 0; m < object.mesh_count; ++m) total += cell_count(scene_->meshes[object.first_mesh + m]);
+  for (const Light& light : scene.lights) {
+    if (light.kind == LightKind::kArea) ++total;
+    if (light.kind != LightKind::kPolyhedron) continue;
+    const Object& object = scene.objects[light.object];
+    for (std::uint32_t m = 0; m < object.mesh_count; ++m) total += cell_count(scene.meshes[object.first_mesh + m]);
   }
   return total;
+}
+
+std::uint64_t Sources::bytes(const Scene& scene) {
+  static_assert(sizeof(Source) % 8 == 0 && sizeof(Emitter) % 8 == 0 && sizeof(LatticeBox) % 8 == 0);
+  const std::uint64_t a_face = sizeof(Emitter) + sizeof(LatticeBox);
+  return sizeof(Source) * scene.lights.size() + a_face * count_emitters(scene);
 }
 
 void Sources::list_emitters(std::uint32_t l, std::uint32_t& next) {

@@ -23,6 +23,8 @@ class Sources {
 
   /// Lists the faces that emit. Errors: kMemory.
   Status prepare(Arena& arena);
+  /// Arena bytes of prepare().
+  static std::uint64_t bytes(const Scene& scene);
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(scene_->lights.size()); }
   const Light& light(std::uint32_t l) const { return scene_->lights[l]; }
@@ -58,7 +60,7 @@ class Sources {
     bool some_blocked = false;
   };
   Faces look_at_faces(std::uint32_t l, const Receiver& receiver, const Sample& sample, std::uint32_t finer);
-  std::uint32_t count_emitters() const;
+  static std::uint32_t count_emitters(const Scene& scene);
   void list_emitters(std::uint32_t l, std::uint32_t& next);
   Link link(std::uint32_t l, const Receiver& receiver) const;
   void prepare_ends(std::uint32_t l);

@@ -2,8 +2,8 @@
 // diffuse reflector; light sources are points, surfaces (area), polyhedra and suns (paper 2, 2.1).
 //
 // All coordinates are in scene units, relative to the centre of the scene's box (Scene::origin), so that a scene far
-// from
-// the origin loses no digits. Everything lies in the arena; names are copies, the scene's text may go after loading.
+// from the origin loses no digits. Everything lies in the arena; names are copies, the scene's text may go after
+// loading.
 #pragma once
 
 #include <cstdint>

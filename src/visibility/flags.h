@@ -1,12 +1,11 @@
 // The paper's flags (paper 3.1): every object, lights included, carries three, one set for direct and one for ambient
 // light: whether it blocks rays, whether any object blocks rays that go to it, whether any blocks rays that leave it.
 //
-// Deviation D12: a ray goes the way of the light: from a light to a surface. Between two surfaces light goes both ways
-// and one visible
-// fraction serves both, so that a pair is left untested only if neither way would be tested.
-// Found flags. While flags are on, every blocked segment leaves its mark: on the object that was found to block it and
-// on both of its ends. What is never marked could be cleared in the scene file, all of it together, and no bit would
-// change: every blocked segment still has the blocker that was found. They are the lossless flags of paper 3.1.
+// Deviation D12: a ray goes the way of the light: from a light to a surface. Between two surfaces light goes both
+// ways and one visible fraction serves both, so that a pair is left untested only if neither way would be tested.
+// Found flags. While flags are on, every blocked segment leaves its mark: on the object that was found to block it
+// and on both of its ends. What is never marked could be cleared in the scene file, all of it together, and no bit
+// would change: every blocked segment still has the blocker that was found. They are the lossless flags of paper 3.1.
 // Bytes: 2 an object or light.
 #pragma once
 

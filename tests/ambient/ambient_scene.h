@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
 #include "ambient/ambient.h"
+#include "ambient/ambient_memory.h"
 #include "ambient/gauss_seidel.h"
 #include "ambient/matrix.h"
 #include "support/scene_from_text.h"
@@ -94,6 +97,33 @@ struct AmbientScene {
   std::vector<double> lux;
   std::vector<float> visible, lights;
 };
+
+/// Solves a scene with room for all rows, then in the smallest memory and in so many bytes `more`: rows that are computed
+/// again give the bits of rows kept. `also(tight, arena, more)` checks each solution further.
+template <class Light, class Also>
+void expect_same_bits_in_any_memory(const std::string& text, const Options& options, Light e0,
+                                    std::initializer_list<std::uint64_t> mores, Also also) {
+  AmbientScene kept(text, options);
+  kept.light(e0);
+  ASSERT_TRUE(kept.solve().done());
+  EXPECT_EQ(kept.statistics.rows_recomputed, 0u);
+  const std::uint64_t least = smallest_ambient_bytes(kept.loaded.scene, options);
+  for (const std::uint64_t more : mores) {
+    std::vector<std::uint64_t> memory((least + more) / 8);
+    Arena arena(memory.data(), memory.size() * 8);
+    AmbientScene tight(text, options);
+    tight.light(e0);
+    ASSERT_TRUE(tight.solve_in(arena, {}).done()) << more;
+    EXPECT_GT(tight.statistics.rows_recomputed, 0u);
+    EXPECT_EQ(tight.statistics.segments_ambient, kept.statistics.segments_ambient);
+    EXPECT_EQ(tight.statistics.sweeps, kept.statistics.sweeps);
+    EXPECT_TRUE(std::ranges::equal(tight.ambient.patch_lx, kept.ambient.patch_lx));
+    also(tight, arena, more);
+  }
+  std::vector<std::uint64_t> memory(least / 8 - 1);
+  Arena arena(memory.data(), memory.size() * 8);
+  EXPECT_EQ(kept.solve_in(arena, {}).code, StatusCode::kMemory);
+}
 
 /// The stored matrix of a scene, rows all kept, as full tables by patch; links of blocks are spread to their patches.
 struct StoredMatrix {

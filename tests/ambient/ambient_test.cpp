@@ -169,27 +169,11 @@ TEST(AmbientLight, RowsComputedAgainGiveTheBitsOfRowsKept) {
     Options options;
     options.row_value_bits = bits;
     const std::string text = grey(0.7) + box_walls(4, 3, 2.5, 4, 3, 3, "white") + kTable;
-    AmbientScene kept(text, options);
-    kept.light(e0_of);
-    ASSERT_TRUE(kept.solve().done());
-    EXPECT_EQ(kept.statistics.rows_recomputed, 0u);
-    const std::uint64_t least = smallest_ambient_bytes(kept.loaded.scene, options);
-    for (const std::uint64_t more : {0u, 2000u, 4000u}) {
-      std::vector<std::uint64_t> memory((least + more) / 8);
-      Arena arena(memory.data(), memory.size() * 8);
-      AmbientScene tight(text, options);
-      tight.light(e0_of);
-      ASSERT_TRUE(tight.solve_in(arena, {}).done()) << more;
-      EXPECT_EQ(tight.statistics.rows_kept == 0, more == 0);
-      EXPECT_GT(tight.statistics.rows_recomputed, 0u);
-      EXPECT_EQ(tight.statistics.segments_ambient, kept.statistics.segments_ambient);
-      EXPECT_EQ(tight.statistics.sweeps, kept.statistics.sweeps);
-      EXPECT_TRUE(std::ranges::equal(tight.ambient.patch_lx, kept.ambient.patch_lx));
-      EXPECT_EQ(arena.used(), ambient_result_bytes(tight.loaded.scene));
-    }
-    std::vector<std::uint64_t> memory(least / 8 - 1);
-    Arena arena(memory.data(), memory.size() * 8);
-    EXPECT_EQ(kept.solve_in(arena, {}).code, StatusCode::kMemory);
+    expect_same_bits_in_any_memory(text, options, e0_of, {0, 2000, 4000},
+                                   [](const AmbientScene& tight, const Arena& arena, std::uint64_t more) {
+                                     EXPECT_EQ(tight.statistics.rows_kept == 0, more == 0);
+                                     EXPECT_EQ(arena.used(), ambient_result_bytes(tight.loaded.scene));
+                                   });
   }
 }
 

@@ -1,8 +1,7 @@
 // Lights and draws a scene as the program does, without files, and marks its stages for the counting plugin.
 //
-// Takes the words of `shodo render`; the picture isn't written, but its hash is printed, so that a counted run is known
-// to
-// have drawn the right pixels.
+// Takes the words of `shodo render`; the picture isn't written, but its hash is printed, so that a counted run is
+// known to have drawn the right pixels.
 #include <unistd.h>
 
 #include <cstdio>
