@@ -76,8 +76,8 @@ Status load_and_place(std::string_view name, std::string_view text, const Reader
 Status light_and_map(Model& model, const Progress& progress) {
   Intersector intersector(model.geometry, model.scene, model.options.flags);
   if (!intersector.take_flags(model.arena)) return model.arena.refused();
-  Status status = light_directly(model.scene, model.geometry, model.patches, intersector, progress, model.arena,
-                                 model.direct, model.statistics);
+  Status status = light_directly(model.scene, model.geometry, model.patches, model.options, intersector, progress,
+                                 model.arena, model.direct, model.statistics);
   if (!status.done()) return status;
   status = light_ambiently(model.scene, model.geometry, model.patches, model.direct, intersector, model.options,
                            progress, model.arena, model.ambient, model.statistics);

@@ -15,6 +15,8 @@ namespace {
 
 constexpr std::uint32_t kProgressInterval = 64;
 constexpr double kThinSteps = 32;
+/// Lattice steps by which samples may come to lie outside the patch's corners, mostly.
+constexpr std::int32_t kRounding = 8;
 /// Corners of a cell this near to one plane, of its size, are on it but for rounding.
 constexpr double kPlane = 0x1p-40;
 
@@ -102,6 +104,7 @@ class DirectStage {
   bool light_patch(std::uint32_t mesh, std::uint32_t local, const Progress& progress);
 
  private:
+  void start_patch(std::uint32_t mesh, std::uint32_t cell, std::uint32_t local);
   void light_one(std::uint32_t mesh, std::uint32_t cell, std::uint32_t local, PatchSums& sums);
   void store(std::uint32_t patch, const PatchSums& sums);
 
@@ -117,6 +120,7 @@ bool DirectStage::light_patch(std::uint32_t m, std::uint32_t local, const Progre
   const std::uint32_t cell = cell_of_patch(mesh, local);
   SubPatchesOfPatch sub_patches(mesh, local);
   PatchSums sums;
+  start_patch(m, cell, local);
   for (std::uint32_t k = sub_patches.next(); k != kNone; k = sub_patches.next()) {
     if (done_ % kProgressInterval == 0 && !progress.go_on(Stage::kDirect, done_, scene_.sub_patch_count)) return false;
     light_one(m, cell, k, sums);
@@ -124,6 +128,24 @@ bool DirectStage::light_patch(std::uint32_t m, std::uint32_t local, const Progre
   }
   store(mesh.first_patch + local, sums);
   return true;
+}
+
+/// A box for the samples of all sub-patches; nothing where there is one only.
+void DirectStage::start_patch(std::uint32_t m, std::uint32_t cell, std::uint32_t local) {
+  const Mesh& mesh = scene_.meshes[m];
+  LatticeBox box;
+  if (mesh.su * mesh.sv > 1) {
+    const Piece piece = patch_piece(scene_, mesh, local);
+    for (std::uint32_t k = 0; k < piece.corners; ++k) {
+      box.include(sample_point(scene_, geometry_, m, cell, piece.corner[k]));
+    }
+    for (int k = 0; k < 3; ++k) {
+      if (box.low[k] >= box.high[k]) continue;
+      box.low[k] -= kRounding;
+      box.high[k] += kRounding;
+    }
+  }
+  sources_.start_patch(box);
 }
 
 void DirectStage::light_one(std::uint32_t m, std::uint32_t cell, std::uint32_t local, PatchSums& sums) {
@@ -170,14 +192,14 @@ Status take_results(const Scene& scene, Arena& arena, DirectLight& direct) {
 }  // namespace
 
 Status light_directly(const Scene& scene, const Geometry& geometry, std::span<const Patch> patches,
-                      Intersector& intersector, const Progress& progress, Arena& arena, DirectLight& direct,
-                      Statistics& statistics) {
+                      const Options& options, Intersector& intersector, const Progress& progress, Arena& arena,
+                      DirectLight& direct, Statistics& statistics) {
   Status status = take_results(scene, arena, direct);
   if (!status.done()) return status;
   const ArenaScratch scratch(arena);
   const IntersectorScratch seeking(intersector);
   if (!intersector.start(arena)) return arena.refused();
-  Sources sources(scene, geometry, intersector);
+  Sources sources(scene, geometry, intersector, options.tiers);
   status = sources.prepare(arena);
   if (!status.done()) return status;
   DirectStage stage(scene, geometry, sources, direct);

@@ -26,7 +26,7 @@ struct DirectLight {
 
 /// Errors: kMemory, kInterrupted.
 Status light_directly(const Scene& scene, const Geometry& geometry, std::span<const Patch> patches,
-                      Intersector& intersector, const Progress& progress, Arena& arena, DirectLight& direct,
-                      Statistics& statistics);
+                      const Options& options, Intersector& intersector, const Progress& progress, Arena& arena,
+                      DirectLight& direct, Statistics& statistics);
 
 }  // namespace shodo

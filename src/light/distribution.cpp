@@ -16,9 +16,13 @@ double attenuation(const Light& light, double metres) {
   return divisor > 0 ? 1 / divisor : 0;
 }
 
-double relative_attenuation(const Light& light, double metres) {
+bool inverse_square(const Light& light) {
   const double* k = light.attenuation;
-  if (k[0] == 0 && k[1] == 0 && k[2] == 1) return 1;
+  return k[0] == 0 && k[1] == 0 && k[2] == 1;
+}
+
+double relative_attenuation(const Light& light, double metres) {
+  if (inverse_square(light)) return 1;
   return metres * metres * attenuation(light, metres);
 }
 

@@ -12,6 +12,9 @@ double intensity(const Light& light, const Vec3& away);
 /// 1 / (C + L d + Q d^2), per square metre, d in metres; 0 where that is not a positive number. Finite for d > 0.
 double attenuation(const Light& light, double metres);
 
+/// Whether the attenuation is the inverse-square law itself, 0 0 1.
+bool inverse_square(const Light& light);
+
 /// What the attenuation makes of illuminance that already falls off as the inverse square: d^2 / (C + L d + Q d^2).
 /// Exactly 1 for the inverse-square law itself.
 double relative_attenuation(const Light& light, double metres);

@@ -25,16 +25,34 @@ class PieceGrid {
   std::uint32_t corner_count() const { return piece_->corners; }
   std::uint32_t corner(std::uint32_t k) const;
 
- private:
+  /// A place on the piece, as Piece::point() takes it.
   struct Parameter {
     double s, t;
   };
-  Parameter parameter(std::uint32_t sample) const;
+  /// Point k < 4 of the 2 x 2 Gauss points of a quadrilateral, exact to the third degree; of a triangle the centroid
+  /// and three points, exact to the second. Equal weights but for weight_at().
+  Parameter gauss(std::uint32_t k) const;
+  /// Point k of a rule exact to the fifth degree, and its weight but for weight_at(): 3 x 3 Gauss points of a
+  /// quadrilateral, 7 of a triangle (Radon 1948).
+  struct Weighted {
+    Parameter at;
+    double weight;
+  };
+  std::uint32_t fine_count() const { return piece_->corners == 3 ? 7 : 9; }
+  Weighted fine(std::uint32_t k) const;
+  Vec3 point_at(const Parameter& at) const;
   double weight_at(const Parameter& at) const;
+
+ private:
+  Parameter parameter(std::uint32_t sample) const;
+  Parameter kept_in(Parameter at) const;
 
   const Piece* piece_;
   std::uint32_t divisions_;
   bool middle_half_;
+  bool affine_ = false;  // a triangle or a parallelogram: corner 0, and two edges
+  double cell_;
+  Vec3 edge_s_, edge_t_;
   // Jacobian at corner 0 and its slopes along s and t; of a cut piece its values on the first and the second half.
   double jacobian_ = 1, along_s_ = 0, along_t_ = 0;
 };

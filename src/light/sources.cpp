@@ -2,7 +2,6 @@
 
 #include "light/distribution.h"
 #include "light/point_source.h"
-#include "light/polygon_factor.h"
 
 namespace shodo {
 
@@ -15,63 +14,75 @@ Vec3 unit_of(const LatticeVector& v) {
 }  // namespace
 
 Status Sources::prepare(Arena& arena) {
-  const std::uint32_t emitters = count_emitters(*scene_);
-  if (!arena.take("light sources", count(), sources_) || !arena.take("emitters", emitters, emitters_) ||
-      !arena.take("emitters' ends", emitters, emitter_ends_)) {
+  const EmitterCount total = count_emitters(*scene_);
+  if (!arena.take("light sources", count(), sources_) || !arena.take("emitters", total.faces, emitters_.faces) ||
+      !arena.take("ends of segments to lights", total.ends, emitters_.ends) ||
+      !arena.take("ends on the lattice", total.ends, emitters_.lattice_ends) || !aims_.take(arena, count())) {
     return arena.refused();
   }
-  std::uint32_t next = 0;
+  EmitterCount next;
   for (std::uint32_t l = 0; l < count(); ++l) {
-    sources_[l].first_emitter = next;
+    Source& source = sources_[l];
+    source.ends = source.whole = {};
+    source.first_emitter = next.faces;
     list_emitters(l, next);
-    sources_[l].emitter_count = next - sources_[l].first_emitter;
-    if (intersector_->seeking()) prepare_ends(l);
+    source.emitter_count = next.faces - source.first_emitter;
+    if (light(l).kind == LightKind::kPoint) source.ends.include(geometry_->light_points[l]);
     if (light(l).kind != LightKind::kSun) continue;
-    sources_[l].to_sun = lattice_direction(-light(l).towards);
-    sources_[l].to_sun_unit = unit_of(sources_[l].to_sun);
+    source.to_sun = lattice_direction(-light(l).towards);
+    source.to_sun_unit = unit_of(source.to_sun);
   }
   return {};
 }
 
-std::uint32_t Sources::count_emitters(const Scene& scene) {
-  std::uint32_t total = 0;
+Sources::EmitterCount Sources::count_emitters(const Scene& scene) {
+  EmitterCount total;
   for (const Light& light : scene.lights) {
-    if (light.kind == LightKind::kArea) ++total;
+    if (light.kind == LightKind::kArea) {
+      ++total.faces;
+      total.ends += kAreaEnds;
+    }
     if (light.kind != LightKind::kPolyhedron) continue;
     const Object& object = scene.objects[light.object];
-    for (std::uint32_t m = 0; m < object.mesh_count; ++m) total += cell_count(scene.meshes[object.first_mesh + m]);
+    for (std::uint32_t m = 0; m < object.mesh_count; ++m) {
+      const std::uint32_t cells = cell_count(scene.meshes[object.first_mesh + m]);
+      total.faces += cells;
+      total.ends += kFaceEnds * cells;
+    }
   }
   return total;
 }
 
 std::uint64_t Sources::bytes(const Scene& scene) {
-  static_assert(sizeof(Source) % 8 == 0 && sizeof(Emitter) % 8 == 0 && sizeof(LatticeBox) % 8 == 0);
-  const std::uint64_t a_face = sizeof(Emitter) + sizeof(LatticeBox);
-  return sizeof(Source) * scene.lights.size() + a_face * count_emitters(scene);
+  static_assert(sizeof(Source) % 8 == 0 && sizeof(Emitter) % 8 == 0 && sizeof(EmitterEnd) % 8 == 0);
+  const EmitterCount total = count_emitters(scene);
+  const std::uint64_t ends = total.ends;
+  return sizeof(Source) * scene.lights.size() + sizeof(Emitter) * std::uint64_t{total.faces} +
+         sizeof(EmitterEnd) * ends + (sizeof(LatticePoint) * ends + 7) / 8 * 8 +
+         PatchAims::bytes(static_cast<std::uint32_t>(scene.lights.size()));
 }
 
-void Sources::list_emitters(std::uint32_t l, std::uint32_t& next) {
-  if (light(l).kind == LightKind::kArea) emitters_[next++] = area_emitter(*scene_, l);
+void Sources::list_emitters(std::uint32_t l, EmitterCount& next) {
+  const auto add = [&](const Emitter& emitter) {
+    emitters_.faces[next.faces] = emitter;
+    place_ends(*scene_, *geometry_, emitters_, next.faces, next.ends);
+    sources_[l].ends.include(emitters_.faces[next.faces].box);
+    sources_[l].whole.include(emitters_.faces[next.faces].box);
+    sources_[l].whole.include(emitters_.faces[next.faces].whole);
+    next.ends += emitter.end_count;
+    ++next.faces;
+  };
+  if (light(l).kind == LightKind::kArea) add(area_emitter(*scene_, l));
   if (light(l).kind != LightKind::kPolyhedron) return;
   const Object& object = scene_->objects[light(l).object];
   for (std::uint32_t m = object.first_mesh; m < object.first_mesh + object.mesh_count; ++m) {
     const std::uint32_t cells = cell_count(scene_->meshes[m]);
-    for (std::uint32_t cell = 0; cell < cells; ++cell) emitters_[next++] = face_emitter(*scene_, l, m, cell);
+    for (std::uint32_t cell = 0; cell < cells; ++cell) add(face_emitter(*scene_, l, m, cell));
   }
 }
 
 Link Sources::link(std::uint32_t l, const Receiver& receiver) const {
   return {static_cast<std::uint32_t>(scene_->objects.size()) + l, receiver.object, LightSet::kDirect};
-}
-
-void Sources::prepare_ends(std::uint32_t l) {
-  Source& source = sources_[l];
-  source.ends = {};
-  if (light(l).kind == LightKind::kPoint) source.ends.include(geometry_->light_points[l]);
-  for (std::uint32_t e = source.first_emitter; e < source.first_emitter + source.emitter_count; ++e) {
-    emitter_ends_[e] = ends_box(*scene_, *geometry_, emitters_[e]);
-    source.ends.include(emitter_ends_[e]);
-  }
 }
 
 /// Grown by two steps but where it is flat, as further samples of the same piece are rounded on their own.
@@ -93,9 +104,14 @@ const Aim& Sources::aim_at(std::uint32_t l, const Receiver& receiver, const Samp
   aimed_ = l;
   aimed_object_ = receiver.object;
   aim_ = light(l).kind == LightKind::kSun
-             ? intersector_->aim_along(expected_, sources_[l].to_sun, link(l, receiver))
-             : intersector_->aim(expected_, sources_[l].ends, link(l, receiver));
+             ? aims_.along(l, link(l, receiver), expected_, sources_[l].to_sun)
+             : aims_.towards(l, link(l, receiver), expected_, sources_[l].ends, sources_[l].ends);
   return aim_;
+}
+
+bool Sources::may_shine_on(std::uint32_t l, const Receiver& receiver) const {
+  if (light(l).kind == LightKind::kSun) return dot(receiver.normal, sources_[l].to_sun_unit) > 0;
+  return receiver.height(light(l).position) > 0;
 }
 
 Received Sources::receive(std::uint32_t l, const Receiver& receiver, const Sample& sample, bool trace_dark) {
@@ -106,7 +122,7 @@ Received Sources::receive(std::uint32_t l, const Receiver& receiver, const Sampl
       return receive_sun(l, receiver, sample);
     case LightKind::kArea:
     case LightKind::kPolyhedron:
-      return receive_faces(l, receiver, sample);
+      break;
   }
   return {};
 }
@@ -136,43 +152,31 @@ Received Sources::receive_sun(std::uint32_t l, const Receiver& receiver, const S
   return received;
 }
 
-/// Faces ascending; `finer` times as many cuts as at first. A face the tried points of which all lie below the horizon
-/// is taken to be as visible as the rest.
-Sources::Faces Sources::look_at_faces(std::uint32_t l, const Receiver& receiver, const Sample& sample,
-                                      std::uint32_t finer) {
+FaceLook Sources::look(std::uint32_t l, const SubPatchView& view, const ReceiverGroup& group) {
   const Source& source = sources_[l];
-  Faces faces;
-  for (std::uint32_t e = source.first_emitter; e < source.first_emitter + source.emitter_count; ++e) {
-    const Emitter& emitter = emitters_[e];
-    if (!(emitter.height(sample.point) > 0)) continue;
-    const Piece piece = emitter_piece(*scene_, emitter);
-    const double f = point_to_polygon(sample.point, receiver.normal, piece.corner, piece.corners);
-    if (!(f > 0)) continue;
-    faces.factor += f;
-    const Aim aim = intersector_->narrow(aim_at(l, receiver, sample), sample.lattice, emitter_ends_[e]);
-    const Seen seen = look(*scene_, *geometry_, *intersector_, emitter, piece, receiver, sample,
-                           finer * first_cuts(emitter, f, source.emitter_count), aim);
-    if (!(seen.all > 0)) continue;
-    faces.tested += f;
-    faces.arrives += f * (seen.arrives / seen.all);
-    faces.some_blocked = faces.some_blocked || seen.some_blocked;
-  }
-  return faces;
+  aimed_ = kNone;  // a new wide aim
+  const FaceLight faces(*scene_, *geometry_, *intersector_, aims_, emitters_, tiers_);
+  return faces.look(view, group, link(l, *view.receiver), source.first_emitter, source.emitter_count, source.ends,
+                    source.whole);
+}
+
+FaceLook Sources::factors(std::uint32_t l, const SubPatchView& view, const ReceiverGroup& group, Reach reach) {
+  const FaceLight faces(*scene_, *geometry_, *intersector_, aims_, emitters_, tiers_);
+  return faces.factors(view, group, reach, sources_[l].first_emitter, sources_[l].emitter_count);
 }
 
 /// E = pi L times the sum of F over the faces; visible: the mean of the faces' visible parts, weighted by F.
-Received Sources::receive_faces(std::uint32_t l, const Receiver& receiver, const Sample& sample) {
-  Faces faces = look_at_faces(l, receiver, sample, 1);
-  if (!(faces.factor > 0)) return {};
-  const bool mixed = faces.some_blocked && faces.arrives > 0;
-  if (mixed || !(faces.tested > 0)) faces = look_at_faces(l, receiver, sample, 2);
-  const double step = geometry_->lattice.step();
-  const double distance = length(light(l).position - sample.point);
-  const double metres = (distance > step ? distance : step) * scene_->metres_per_unit;
+Received Sources::received(std::uint32_t l, const ReceiverGroup& group, const FaceLook& look, std::uint32_t k) const {
   Received received;
-  received.lux = kPi * light(l).strength * faces.factor * relative_attenuation(light(l), metres);
-  received.visible = faces.tested > 0 ? faces.arrives / faces.tested : 0;
-  if (light(l).kind == LightKind::kArea) received.factor = faces.factor;
+  received.lux = kPi * light(l).strength * look.factor[k];
+  if (!inverse_square(light(l))) {
+    const double step = geometry_->lattice.step();
+    const double distance = length(light(l).position - group.point[k]);
+    const double metres = (distance > step ? distance : step) * scene_->metres_per_unit;
+    received.lux *= relative_attenuation(light(l), metres);
+  }
+  received.visible = look.visible(k);
+  if (light(l).kind == LightKind::kArea) received.factor = look.factor[k];
   return received;
 }
 

@@ -1,14 +1,16 @@
-// All lights of a scene behind one question: how much of light l does this sample receive? (paper 2.1)
+// All lights of a scene behind two questions: how much of a point light or sun does this sample receive, and how much
+// of an area or polyhedral light do these? (paper 2.1)
 //
-// With flags a light is aimed at once from all samples of a sub-patch, and its faces from each sample again: where
-// nothing can come between, no segment is sent. Bytes: 80 a light and 72 a face that emits.
+// With flags a light is aimed at once from all samples of a sub-patch, and the faces of it again: where nothing can
+// come between, no segment is sent. Bytes: 104 a light, and those of light/emitter.h and
+// light/patch_aims.h.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
 #include "base/arena.h"
-#include "light/area_source.h"
+#include "light/face_light.h"
 #include "light/receiver.h"
 #include "scene/scene.h"
 #include "visibility/geometry.h"
@@ -18,8 +20,9 @@ namespace shodo {
 
 class Sources {
  public:
-  Sources(const Scene& scene, const Geometry& geometry, Intersector& intersector)
-      : scene_(&scene), geometry_(&geometry), intersector_(&intersector) {}
+  /// `tiers`: as in Options.
+  Sources(const Scene& scene, const Geometry& geometry, Intersector& intersector, double tiers)
+      : scene_(&scene), geometry_(&geometry), intersector_(&intersector), tiers_(tiers), aims_(intersector) {}
 
   /// Lists the faces that emit. Errors: kMemory.
   Status prepare(Arena& arena);
@@ -29,15 +32,26 @@ class Sources {
   std::uint32_t count() const { return static_cast<std::uint32_t>(scene_->lights.size()); }
   const Light& light(std::uint32_t l) const { return scene_->lights[l]; }
 
+  /// The patch that the receivers which come next belong to: around their samples, mostly (light/patch_aims.h).
+  void start_patch(const LatticeBox& patch) { aims_.start(patch); }
   /// The samples that come next lie in or near this box (whatever it is, answers are the same): those of a sub-patch.
   void expect(const LatticeBox& samples);
 
-  /// `trace_dark`: look for blockers even where the light sends nothing, so that `visible` holds there too.
+  /// False if point light or sun l is behind the receiver's plane.
+  bool may_shine_on(std::uint32_t l, const Receiver& receiver) const;
+  /// Of a point light or a sun. `trace_dark`: look for blockers even where the light sends nothing, so that `visible`
+  /// holds there too.
   Received receive(std::uint32_t l, const Receiver& receiver, const Sample& sample, bool trace_dark = false);
+  /// Of an area or polyhedral light.
+  FaceLook look(std::uint32_t l, const SubPatchView& view, const ReceiverGroup& group);
+  /// The same without segments: `factor` only, of the faces within this reach.
+  FaceLook factors(std::uint32_t l, const SubPatchView& view, const ReceiverGroup& group, Reach reach);
+  /// What sample k of the group gets, given look().
+  Received received(std::uint32_t l, const ReceiverGroup& group, const FaceLook& look, std::uint32_t k) const;
 
   const Scene& scene() const { return *scene_; }
   const Geometry& geometry() const { return *geometry_; }
-  const Intersector& intersector() const { return *intersector_; }
+  Intersector& intersector() const { return *intersector_; }
   /// How often a point light was within one lattice step of a sample.
   std::uint32_t clamped() const { return clamped_; }
 
@@ -47,32 +61,28 @@ class Sources {
     std::uint32_t emitter_count = 0;
     LatticeVector to_sun;  // rounded; the same for rays and cosines
     Vec3 to_sun_unit;
-    LatticeBox ends;      // of segments; with flags only
+    LatticeBox ends;   // of segments
+    LatticeBox whole;  // any point of the faces
   };
 
   Received receive_point(std::uint32_t l, const Receiver& receiver, const Sample& sample, bool trace_dark);
   Received receive_sun(std::uint32_t l, const Receiver& receiver, const Sample& sample);
-  Received receive_faces(std::uint32_t l, const Receiver& receiver, const Sample& sample);
-  struct Faces {
-    double factor = 0;   // to all faces
-    double tested = 0;   // to those to which segments were sent
-    double arrives = 0;  // the part of `tested` that is visible
-    bool some_blocked = false;
+  struct EmitterCount {
+    std::uint32_t faces = 0, ends = 0;
   };
-  Faces look_at_faces(std::uint32_t l, const Receiver& receiver, const Sample& sample, std::uint32_t finer);
-  static std::uint32_t count_emitters(const Scene& scene);
-  void list_emitters(std::uint32_t l, std::uint32_t& next);
+  static EmitterCount count_emitters(const Scene& scene);
+  void list_emitters(std::uint32_t l, EmitterCount& next);
   Link link(std::uint32_t l, const Receiver& receiver) const;
-  void prepare_ends(std::uint32_t l);
   /// Aims from the expected samples to light l, this one included.
   const Aim& aim_at(std::uint32_t l, const Receiver& receiver, const Sample& sample);
 
   const Scene* scene_;
   const Geometry* geometry_;
   Intersector* intersector_;
+  double tiers_;
+  PatchAims aims_;
   std::span<Source> sources_;
-  std::span<Emitter> emitters_;
-  std::span<LatticeBox> emitter_ends_;  // with flags only
+  Emitters emitters_;
   LatticeBox expected_;                 // samples
   Aim aim_;                             // from them to light aimed_, for receiver aimed_object_
   std::uint32_t aimed_ = kNone;

@@ -1,15 +1,24 @@
 // The direct illuminance of one sub-patch: an area mean (paper 2.1, 2.3; deviation D6).
 //
-// Each light is asked at the centre and next to the corners. Where these five (four of a triangle) agree on what is
-// visible, and the illuminance is nearly linear, the mean is a rule of their values that is exact for polynomials of
-// the third degree (second on a triangle). Otherwise it is the mean over 4 x 4 samples (16 triangles); a near point
-// light sends its exact flux (point_source.h) times the visible part.
+// What a light would send with nothing in the way and the part of it that is visible are found apart.
+//
+// A point light or sun is asked at the centre and next to the corners. Where these five (four of a triangle) agree on
+// what is visible, and the illuminance is nearly linear, the mean is a rule of their values that is exact for
+// polynomials of the third degree (second on a triangle). Otherwise it is the mean over 4 x 4 samples (16 triangles); a
+// near point light sends its exact flux (point_source.h) times the visible part.
+//
+// An area or polyhedral light is asked at four Gauss points, each of which looks at some of its ends, and an area light
+// at the centre too, which looks at many: 32 + 32 segments where something may be in the way, none elsewhere. A near
+// face has its mean from nine points or 16 and an area light its segments to the leaves of a quadtree. Where the four
+// points disagree on what is visible, the 16 samples share out the mean, eight segments each.
 //
 // Hidden samples, those inside or under something, are no part of the mean: a floor beside a cupboard is as bright as
 // its visible part. A sample that any light reaches is not hidden; only dark ones are looked at, since that takes a
 // search. A sub-patch is hidden if its centre and all corner samples are.
 //
-// Approximate: what falls between the samples. Stack: 1.7 KiB; no memory.
+// Approximate: what falls between the samples. Against 16 samples with 256 segments each, both rooms were 7.3 % (day,
+// most of it in two sub-patches of 54 cm behind the curtains) and 4.1 % (evening) off, as a root mean square over the
+// mean. Stack: 2 KiB; no memory.
 #pragma once
 
 #include <cstdint>

@@ -49,6 +49,23 @@ LatticeBox facet_box(std::span<const Triangle> triangles, bool& tilted) {
   return box;
 }
 
+bool fill_box(std::span<const Triangle> triangles, const LatticeBox& box) {
+  if (triangles.size() != 2) return false;
+  const int axis = box.low[0] > box.high[0] ? 0 : box.low[1] > box.high[1] ? 1 : 2;
+  const int u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
+  std::uint32_t corners[2] = {0, 0};  // bit 0 .. 3: low or high along u and v
+  for (std::uint32_t k = 0; k < 2; ++k) {
+    for (const LatticePoint* corner : {&triangles[k].a, &triangles[k].b, &triangles[k].c}) {
+      const std::int32_t at[3] = {corner->x, corner->y, corner->z};
+      const bool low_u = at[u] == box.low[u], low_v = at[v] == box.low[v];
+      if (!(low_u || at[u] == box.high[u]) || !(low_v || at[v] == box.high[v])) return false;
+      corners[k] |= std::uint32_t{1} << ((low_u ? 0 : 1) + (low_v ? 0 : 2));
+    }
+  }
+  const std::uint32_t missing = (~corners[0] | ~corners[1]) & 15;
+  return std::popcount(corners[0]) == 3 && std::popcount(corners[1]) == 3 && (missing == 6 || missing == 9);
+}
+
 std::uint32_t Blockers::facet_count(const Geometry& geometry) {
   std::uint32_t count = 0;
   for (const PolygonTriangles& polygon : geometry.cells) count += facets_of(polygon);
@@ -70,6 +87,7 @@ bool Blockers::build(const Geometry& geometry, Arena& arena) {
         bool tilted = false;
         facet.box = facet_box(geometry.triangles.subspan(facet.first, facet.count), tilted);
         facet.tilted = tilted ? 1 : 0;
+        facet.rectangle = !tilted && fill_box(geometry.triangles.subspan(facet.first, facet.count), facet.box) ? 1 : 0;
         facet.blocks = 3;
       }
     }
@@ -130,22 +148,6 @@ bool misses_side(std::span<const Triangle> triangles, std::span<const LatticePoi
         if (sides.both()) return false;
       }
     }
-  }
-  return true;
-}
-
-/// A plane's lowest and highest corner of a box are those that its normal's signs pick.
-bool misses_side(std::span<const Triangle> triangles, const LatticePoint& a, const LatticeBox& b) {
-  for (const Triangle& triangle : triangles) {
-    const LatticeVector& n = triangle.n;
-    const bool x = n.x > 0, y = n.y > 0, z = n.z > 0;
-    const LatticePoint low{x ? b.low[0] : b.high[0], y ? b.low[1] : b.high[1], z ? b.low[2] : b.high[2]};
-    const LatticePoint high{x ? b.high[0] : b.low[0], y ? b.high[1] : b.low[1], z ? b.high[2] : b.low[2]};
-    Sides sides;
-    sides.add(triangle.side(a));
-    sides.add(triangle.side(low));
-    sides.add(triangle.side(high));
-    if (sides.both()) return false;
   }
   return true;
 }

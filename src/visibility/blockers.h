@@ -26,12 +26,15 @@ struct Facet {
   std::uint8_t count = 1;    // 1 or 2
   std::uint8_t blocks = 3;   // bit s: in LightSet s
   std::uint8_t tilted = 0;   // 1: not square to an axis
-  std::uint8_t unused = 0;
+  std::uint8_t rectangle = 0;  // 1: its two triangles fill its box, square to an axis
 };
 static_assert(sizeof(Facet) == 32);
 
 /// The box around a facet; flat ones get low = plane + 1, high = plane - 1 along the axis to which they are square.
 LatticeBox facet_box(std::span<const Triangle> triangles, bool& tilted);
+/// Whether two triangles fill their flat box: every corner of theirs is one of the box, and they leave out opposite
+/// ones.
+bool fill_box(std::span<const Triangle> triangles, const LatticeBox& box);
 
 /// The ends of segments: lattice points and the box around them.
 struct Ends {
@@ -52,7 +55,7 @@ class Blockers {
 
   /// Calls visit(facet number) for all in the shaft, in an order that the geometry fixes.
   template <class Visit>
-  void visit(const Shaft& shaft, Visit visit) const {
+  void visit(Shaft shaft, Visit visit) const {
     std::uint32_t stack[32];  // one waiting node a level
     std::uint32_t depth = 0;
     if (built()) stack[depth++] = 0;
@@ -84,7 +87,5 @@ class Blockers {
 
 /// True if no segment between the points of a and those of b passes the plane of any triangle of the facet.
 bool misses_side(std::span<const Triangle> triangles, std::span<const LatticePoint> a, std::span<const LatticePoint> b);
-/// The same for any point of box b.
-bool misses_side(std::span<const Triangle> triangles, const LatticePoint& a, const LatticeBox& b);
 
 }  // namespace shodo

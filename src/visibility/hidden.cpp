@@ -1,13 +1,4 @@
-// Hidden samples (paper 2.1 has none: deviation D4; design: direct light): inside an object or under one that stands on
-// the surface.
-//
-// A sample that sees backs all round is enclosed by them. Sixteen directions in four rings over the hemisphere, from
-// nearly along the normal to nearly along the surface, each found on the lattice; the first that meets a front or
-// nothing ends the search, so a sample in the open costs one ray mostly. Exact: each ray. Approximate: that sixteen
-// stand for all directions.
-#include <cstdint>
-
-#include "visibility/intersector.h"
+#include "visibility/hidden.h"
 
 namespace shodo {
 
@@ -30,15 +21,28 @@ Vec3 tangent_of(const Vec3& n) {
 
 }  // namespace
 
-bool is_hidden(const Intersector& intersector, const LatticePoint& sample, const Vec3& normal) {
-  const Vec3 tangent = tangent_of(normal);
-  const Vec3 bitangent = cross(normal, tangent);
+std::uint32_t hidden_samples(Intersector& intersector, std::span<const LatticePoint> samples, const Vec3& normal,
+                             bool only_if_all) {
+  const Vec3 tangent = tangent_of(normal), bitangent = cross(normal, tangent);
+  std::uint32_t hidden = 0;
+  for (std::uint32_t k = 0; k < samples.size(); ++k) hidden |= std::uint32_t{1} << k;
   for (const double(&along)[3] : kDirections) {
-    const Vec3 direction = along[0] * tangent + along[1] * bitangent + along[2] * normal;
-    const Hit hit = intersector.nearest(sample, lattice_direction(direction));
-    if (hit.triangle == kNone || hit.front) return false;
+    const LatticeVector direction = lattice_direction(along[0] * tangent + along[1] * bitangent + along[2] * normal);
+    LatticeBox box;
+    for (std::uint32_t k = 0; k < samples.size(); ++k) {
+      if ((hidden >> k & 1) != 0) box.include(samples[k]);
+    }
+    const Aim gathered = intersector.gather_along(box, direction);
+    for (std::uint32_t k = 0; k < samples.size(); ++k) {
+      if ((hidden >> k & 1) == 0) continue;
+      const Hit hit = intersector.nearest(samples[k], direction, gathered);
+      if (hit.triangle != kNone && !hit.front) continue;
+      if (only_if_all) return 0;
+      hidden &= ~(std::uint32_t{1} << k);
+    }
+    if (hidden == 0) return 0;
   }
-  return true;
+  return hidden;
 }
 
 }  // namespace shodo

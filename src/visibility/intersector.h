@@ -61,8 +61,14 @@ class Intersector {
   Aim aim_along(const LatticeBox& a, const LatticeVector& direction, const Link& link);
   /// Of a wide aim what remains between the points of two groups that lie in its boxes.
   Aim narrow(const Aim& wide, const Ends& a, const Ends& b);
-  /// The same between a point and a box.
-  Aim narrow(const Aim& wide, const LatticePoint& a, const LatticeBox& b);
+
+  /// Of a list of facets (of a wide aim, to ends that hold these) what remains between two boxes; wide again.
+  Aim aim_among(std::span<const std::uint32_t> facets, const LatticeBox& a, const LatticeBox& b);
+  Aim aim_along_among(std::span<const std::uint32_t> facets, const LatticeBox& a, const LatticeVector& direction);
+  /// Sorts the facets of an aim: those of other objects first; returns their number.
+  std::size_t others_first(const Aim& aim, std::uint32_t object) const;
+  /// Everything that rays from the box along `direction` may meet, whatever the flags; wide.
+  Aim gather_along(const LatticeBox& a, const LatticeVector& direction);
 
   /// True if any triangle blocks the open segment from p to q. Counts a segment and its tests.
   bool blocked(const LatticePoint& p, const LatticePoint& q, const Link& link);
@@ -72,6 +78,8 @@ class Intersector {
   bool ray_blocked(const LatticePoint& p, const LatticeVector& direction, const Link& link, const Aim& aim);
   /// The nearest triangle along a ray, exactly; ties: front before back, then the lower index. Not counted.
   Hit nearest(const LatticePoint& p, const LatticeVector& direction) const;
+  /// The same, given what gather_along() found for a box that holds p and this direction.
+  Hit nearest(const LatticePoint& p, const LatticeVector& direction, const Aim& gathered) const;
 
   std::uint64_t segments(LightSet set) const { return segments_[index(set)]; }
   std::uint64_t tests(LightSet set) const { return tests_[index(set)]; }
@@ -79,11 +87,14 @@ class Intersector {
  private:
   static constexpr std::uint32_t index(LightSet set) { return static_cast<std::uint32_t>(set); }
 
+  struct Nearest;
+  void offer(const Facet& facet, const LatticePoint& p, const LatticeVector& direction, Nearest& best) const;
   template <class Blocks>
   bool any_blocks(Blocks blocks, const LatticePoint& p, const LatticeVector& d, const Link& link, const Aim& aim);
   template <class Miss>
-  Aim keep(const Aim& wide, const Shaft& shaft, Miss misses);
+  Aim keep(const Aim& wide, Shaft shaft, Miss misses);
   Aim aim_in(const Shaft& shaft, const Link& link, std::span<std::uint32_t> list);
+  Aim keep_wide(std::span<const std::uint32_t> facets, Shaft shaft);
   std::span<const Triangle> triangles_of(const Facet& facet) const {
     return {geometry_->triangles.data() + facet.first, facet.count};
   }
@@ -111,9 +122,5 @@ class IntersectorScratch {
  private:
   Intersector& intersector_;
 };
-
-/// Whether a sample is inside or under something: what it sees first, in every one of a fixed set of directions over
-/// the hemisphere of `normal`, are backs (design: direct light).
-bool is_hidden(const Intersector& intersector, const LatticePoint& sample, const Vec3& normal);
 
 }  // namespace shodo

@@ -12,8 +12,13 @@ struct LatticeBox {
   std::int32_t low[3] = {INT32_MAX, INT32_MAX, INT32_MAX};
   std::int32_t high[3] = {INT32_MIN, INT32_MIN, INT32_MIN};
 
-  void include(const LatticePoint& p);
-  void include(const LatticeBox& box);
+  void include(const LatticePoint& p) { include({{p.x, p.y, p.z}, {p.x, p.y, p.z}}); }
+  void include(const LatticeBox& box) {
+    for (int k = 0; k < 3; ++k) {
+      if (box.low[k] < low[k]) low[k] = box.low[k];
+      if (box.high[k] > high[k]) high[k] = box.high[k];
+    }
+  }
   bool contains(const LatticePoint& p, std::int32_t margin) const;
   /// Whether the segment meets the box grown by `margin`; may err by a billionth of the segment, towards true.
   bool met_by(const LatticePoint& from, const LatticePoint& to, std::int32_t margin) const;

@@ -12,21 +12,6 @@ constexpr std::uint32_t kLeafPolygons = 8;
 
 }  // namespace
 
-void LatticeBox::include(const LatticePoint& p) {
-  const std::int32_t at[3] = {p.x, p.y, p.z};
-  for (int k = 0; k < 3; ++k) {
-    if (at[k] < low[k]) low[k] = at[k];
-    if (at[k] > high[k]) high[k] = at[k];
-  }
-}
-
-void LatticeBox::include(const LatticeBox& box) {
-  for (int k = 0; k < 3; ++k) {
-    if (box.low[k] < low[k]) low[k] = box.low[k];
-    if (box.high[k] > high[k]) high[k] = box.high[k];
-  }
-}
-
 bool LatticeBox::contains(const LatticePoint& p, std::int32_t margin) const {
   const std::int32_t at[3] = {p.x, p.y, p.z};
   for (int k = 0; k < 3; ++k) {

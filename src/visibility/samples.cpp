@@ -48,8 +48,37 @@ void move_in_front(const Triangle& triangle, std::uint32_t axis, LatticePoint& p
   move_along(axis, n > 0 ? 2 * steps : -2 * steps, p);
 }
 
+std::int32_t coordinate(const LatticePoint& p, std::uint32_t axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+
+/// Whether all triangles lie in one plane square to `axis`.
+bool all_in_plane(std::span<const Triangle> triangles, std::uint32_t axis) {
+  const std::int32_t plane = coordinate(triangles[0].a, axis);
+  for (const Triangle& t : triangles) {
+    for (const LatticePoint* corner : {&t.a, &t.b, &t.c}) {
+      if (coordinate(*corner, axis) != plane) return false;
+    }
+  }
+  return true;
+}
+
+/// The same as in_front() for such a polygon, wherever on it p lies: the first odd point beyond the plane. False: it is
+/// none, or has no area.
+bool in_front_of_flat(std::span<const Triangle> triangles, LatticePoint& p) {
+  for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    if (triangles.empty() || !all_in_plane(triangles, axis)) continue;
+    std::int64_t normal = 0;
+    for (const Triangle& triangle : triangles) normal += component(triangle.n, axis);
+    if (normal == 0) return false;
+    const std::int32_t plane = coordinate(triangles[0].a, axis), at = coordinate(p, axis);
+    if (normal > 0 ? at <= plane : at >= plane) move_along(axis, plane - at + (normal > 0 ? 1 : -1), p);
+    return true;
+  }
+  return false;
+}
+
 /// In front of the one of the triangles that lies at p as seen along the dominant axis of their common normal.
 LatticePoint in_front(std::span<const Triangle> triangles, LatticePoint p) {
+  if (in_front_of_flat(triangles, p)) return p;
   LatticeVector normal;
   for (const Triangle& triangle : triangles) {
     normal = {normal.x + triangle.n.x, normal.y + triangle.n.y, normal.z + triangle.n.z};

@@ -2,13 +2,6 @@
 
 namespace shodo {
 
-Shaft::Shaft(const LatticeBox& a, const LatticeBox& b) : around_(a) {
-  around_.include(b);
-  add_lines(a, b, 0, 1);
-  add_lines(a, b, 1, 2);
-  add_lines(a, b, 2, 0);
-}
-
 Shaft Shaft::along(const LatticeBox& a, const LatticeVector& direction) {
   const std::int64_t way[3] = {direction.x, direction.y, direction.z};
   LatticeBox b;
@@ -22,7 +15,8 @@ Shaft Shaft::along(const LatticeBox& a, const LatticeVector& direction) {
 /// A line through a corner of A and the same corner of B bounds both boxes if this corner is the farthest point of each
 /// along the line's normal: the normal's signs must be those of the corner. The normal is square to the way (du, dv)
 /// from the one to the other.
-void Shaft::add_lines(const LatticeBox& a, const LatticeBox& b, std::uint8_t u, std::uint8_t v) {
+void Shaft::add_lines(std::uint8_t u, std::uint8_t v) {
+  const LatticeBox &a = a_, &b = b_;
   for (std::uint32_t corner = 0; corner < 4; ++corner) {
     const bool high_u = (corner & 1) != 0, high_v = (corner & 2) != 0;
     const std::int32_t au = high_u ? a.high[u] : a.low[u], av = high_v ? a.high[v] : a.low[v];
@@ -42,7 +36,13 @@ void Shaft::add_lines(const LatticeBox& a, const LatticeBox& b, std::uint8_t u, 
   }
 }
 
-bool Shaft::beyond_a_line(const LatticeBox& box) const {
+bool Shaft::beyond_a_line(const LatticeBox& box) {
+  if (lines_used_ == kNotYet) {
+    lines_used_ = 0;
+    add_lines(0, 1);
+    add_lines(1, 2);
+    add_lines(2, 0);
+  }
   for (std::uint32_t k = 0; k < lines_used_; ++k) {
     const Line& line = lines_[k];
     const std::int32_t u = line.normal_u > 0 ? box.low[line.u] : box.high[line.u];

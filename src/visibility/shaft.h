@@ -6,7 +6,7 @@
 // is outside the common box of A and B or beyond one of these lines. Exact: all of it, in integers. Approximate: hull
 // and box may still be apart where no axis shows it; that costs tests only. For a sun B is A moved along the direction,
 // which reaches out of the lattice's cube.
-// Stack: 320 bytes.
+// Stack: 370 bytes.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,12 @@ namespace shodo {
 
 class Shaft {
  public:
-  Shaft(const LatticeBox& a, const LatticeBox& b);
+  Shaft(const LatticeBox& a, const LatticeBox& b) : a_(a), b_(b), around_(a) { around_.include(b); }
   /// `direction`: of lattice_direction(), its largest component is the size of the cube.
   static Shaft along(const LatticeBox& a, const LatticeVector& direction);
 
   /// True if no segment from A to B meets the box, which may be flat in the way of facet_box().
-  bool misses(const LatticeBox& box) const {
-    return apart(around_, box) || beyond_a_line(box);
-  }
+  bool misses(const LatticeBox& box) { return apart(around_, box) || beyond_a_line(box); }
 
  private:
   /// Beyond: normal_u u + normal_v v > limit; the box's nearest corner counts.
@@ -33,12 +31,13 @@ class Shaft {
     std::int32_t normal_u, normal_v;
     std::uint8_t u, v;  // axes
   };
-  bool beyond_a_line(const LatticeBox& box) const;
-  void add_lines(const LatticeBox& a, const LatticeBox& b, std::uint8_t u, std::uint8_t v);
+  bool beyond_a_line(const LatticeBox& box);
+  void add_lines(std::uint8_t u, std::uint8_t v);
 
-  LatticeBox around_;
+  LatticeBox a_, b_, around_;
   Line lines_[12];
-  std::uint32_t lines_used_ = 0;
+  std::uint32_t lines_used_ = kNotYet;  // found when a box asks that the common box does not rule out
+  static constexpr std::uint32_t kNotYet = 0xFFFFFFFF;
 };
 
 }  // namespace shodo

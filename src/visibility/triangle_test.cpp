@@ -9,12 +9,25 @@ namespace shodo {
 
 namespace {
 
+/// A product of two differences of lattice points: one instruction on a machine of 32 bits.
+std::int64_t product(std::int32_t a, std::int32_t b) { return std::int64_t{a} * b; }
+
+/// m . (q - p), without making 64 bits of the difference before they are needed.
+std::int64_t along(const LatticeVector& m, const LatticePoint& q, const LatticePoint& p) {
+  return m.x * (q.x - p.x) + m.y * (q.y - p.y) + m.z * (q.z - p.z);
+}
+
 /// Whether the line from p along d passes the closed triangle; `through` is s(Q) - s(P) = N.d, not zero.
 bool line_meets(const Triangle& triangle, const LatticePoint& p, const LatticeVector& d, std::int64_t through) {
-  const LatticeVector m = cross(d, triangle.b - p);
-  const std::int64_t ab = -dot(m, triangle.a - p);
+  const std::int32_t dx = static_cast<std::int32_t>(d.x), dy = static_cast<std::int32_t>(d.y),
+                     dz = static_cast<std::int32_t>(d.z);
+  const LatticePoint &b = triangle.b;
+  const std::int32_t bx = b.x - p.x, by = b.y - p.y, bz = b.z - p.z;
+  const LatticeVector m{product(dy, bz) - product(dz, by), product(dz, bx) - product(dx, bz),
+                        product(dx, by) - product(dy, bx)};
+  const std::int64_t ab = -along(m, triangle.a, p);
   if (through > 0 ? ab < 0 : ab > 0) return false;
-  const std::int64_t bc = dot(m, triangle.c - p);
+  const std::int64_t bc = along(m, triangle.c, p);
   if (through > 0 ? bc < 0 : bc > 0) return false;
   const std::int64_t ca = through - ab - bc;
   return through > 0 ? ca >= 0 : ca <= 0;

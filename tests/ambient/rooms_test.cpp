@@ -10,7 +10,7 @@ namespace {
 /// Lights the scene directly, then ambiently.
 void light_both(AmbientScene& scene) {
   Intersector intersector(scene.geometry);
-  const Status status = light_directly(scene.loaded.scene, scene.geometry, scene.patches, intersector, {},
+  const Status status = light_directly(scene.loaded.scene, scene.geometry, scene.patches, {}, intersector, {},
                                        scene.loaded.arena, scene.direct, scene.statistics);
   ASSERT_TRUE(status.done()) << to_text(status);
   scene.lux.assign(scene.direct.patch_lx.begin(), scene.direct.patch_lx.end());

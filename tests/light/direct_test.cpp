@@ -335,7 +335,7 @@ TEST(DirectLight, RefusesAnArenaThatIsTooSmallAndNamesOneThatIsNot) {
     DirectLight direct;
     Statistics statistics;
     Intersector intersector(scene.geometry);
-    return light_directly(scene.scene, scene.geometry, scene.patches, intersector, {}, arena, direct, statistics);
+    return light_directly(scene.scene, scene.geometry, scene.patches, {}, intersector, {}, arena, direct, statistics);
   };
   std::size_t bytes = 0;
   int refused = 0;
@@ -345,7 +345,7 @@ TEST(DirectLight, RefusesAnArenaThatIsTooSmallAndNamesOneThatIsNot) {
     bytes = status.bytes_needed;
     ++refused;
   }
-  EXPECT_EQ(refused, 8);  // each block once
+  EXPECT_EQ(refused, 11);  // each block once
   EXPECT_EQ(run(bytes - 8).code, StatusCode::kMemory);
 }
 

@@ -66,7 +66,7 @@ class LitScene : public HandMadeScene {
     for (const auto& change : changes_) change();
     ASSERT_TRUE(build_patches(scene, geometry, arena, patches, statistics).done());
     Intersector intersector(geometry);
-    status = light_directly(scene, geometry, patches, intersector, progress, arena, direct, statistics);
+    status = light_directly(scene, geometry, patches, options, intersector, progress, arena, direct, statistics);
     ASSERT_TRUE(status.done() || progress.report != nullptr) << status.message;
   }
 
@@ -96,6 +96,7 @@ class LitScene : public HandMadeScene {
   DirectLight direct;
   Statistics statistics;
   Progress progress;
+  Options options;
 
  private:
   static void set(Light& light, LightKind kind, double strength, const Change& change) {

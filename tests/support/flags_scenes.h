@@ -58,7 +58,7 @@ inline LitBits lit(const std::string& text, FlagMode mode, Options options = {},
   DirectLight direct;
   AmbientLight ambient;
   Status status =
-      light_directly(loaded.scene, geometry, patches, intersector, {}, loaded.arena, direct, bits.statistics);
+      light_directly(loaded.scene, geometry, patches, options, intersector, {}, loaded.arena, direct, bits.statistics);
   EXPECT_TRUE(status.done()) << to_text(status);
   status = light_ambiently(loaded.scene, geometry, patches, direct, intersector, options, {}, loaded.arena, ambient,
                            bits.statistics);

@@ -1,6 +1,7 @@
 // Samples, point lights, patches, hidden samples, and the intersector's answers and counts.
 #include <gtest/gtest.h>
 
+#include "visibility/hidden.h"
 #include "scenes.h"
 #include "slow_twin.h"
 
@@ -254,7 +255,7 @@ TEST(Hidden, UnderABoxThatStandsOnAFloorAndInsideIt) {
       if (within(-1e-3) != within(1e-3)) continue;
       const Vec3 point = turned({x, y, 0}, axis, angle) - scene.scene.origin;
       const LatticePoint p = sample_point(scene.scene, scene.geometry, floor, 0, point);
-      EXPECT_EQ(is_hidden(intersector, p, up), within(0)) << x << ", " << y;
+      EXPECT_EQ(hidden_samples(intersector, {&p, 1}, up, false), within(0) ? 1u : 0u) << x << ", " << y;
     }
   }
 }

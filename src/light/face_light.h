@@ -1,0 +1,101 @@
+// How much of an area or polyhedral light some samples receive (paper 2.1): E = pi L F, Lambertian faces.
+//
+// F, the form factor from a sample to a face, has four tiers by the error allowed (as the ambient stage: --tiers), with
+// q = (s_p^2 + s_e^2) / (3 d^2), s twice the radii of sub-patch and face and d the distance of their centres:
+//
+//     far      kernel cos cos / (pi r^2) A, from the sub-patch's centre to the face's: error about q
+//     middle   the kernel from each sample to the face's centre, times its mean over the face's Gauss points as seen
+// from
+//              the sub-patch's centre over the value between the centres: about q^2; faces of polyhedra only
+//     scaled   the same with the contour integral from the sub-patch's centre for the mean: about 4 (r_p r_e / d^2)^2
+//     near     Lambert's contour integral from each sample, exact: all else, and wherever one crosses the other's plane
+//
+// The part of it that arrives is that of fixed segments from the samples to the face's ends (light/emitter.h), each
+// weighted by its kernel, so that a point near the horizon counts little and penumbrae are smooth; in the far tier all
+// count the same. Where an aim finds nothing in the way no segment is sent, and none is counted.
+// Stack: 400 bytes; no memory.
+#pragma once
+
+#include <cstdint>
+
+#include "light/emitter.h"
+#include "light/patch_aims.h"
+#include "light/receiver_group.h"
+#include "visibility/intersector.h"
+
+namespace shodo {
+
+/// What decides how a sub-patch is seen from lights; its samples share it.
+struct SubPatchView {
+  const Receiver* receiver = nullptr;
+  Vec3 centre;
+  double radius = 0;  // of the sphere about the centre that holds its corners
+};
+
+/// How fast a face's light varies over a sub-patch, by their distance: the mean is found by the four Gauss points, by
+/// nine, or by the 16 samples of the grid, since no rule of few points will do.
+enum class Reach : std::uint8_t { kFar, kNear, kVeryNear };
+
+/// One light from the samples of a group; k as there.
+struct FaceLook {
+  double factor[kMostInGroup] = {};   // form factor to all faces, nothing in the way
+  double tested[kMostInGroup] = {};   // the part of it in faces of which some end is above the horizon
+  double arrives[kMostInGroup] = {};  // the part of `tested` that is visible
+  Reach reach = Reach::kFar;          // of the nearest face
+  bool clear = false;                 // nothing is in the way, as an aim showed
+  bool split = false;                 // a face was so near that segments went to the leaves of its quadtree
+
+  double visible(std::uint32_t k) const { return tested[k] > 0 ? arrives[k] / tested[k] : 0; }
+};
+
+class FaceLight {
+ public:
+  /// `tiers`: as in Options.
+  FaceLight(const Scene& scene, const Geometry& geometry, Intersector& intersector, PatchAims& aims,
+            const Emitters& emitters, double tiers)
+      : scene_(&scene),
+        geometry_(&geometry),
+        intersector_(&intersector),
+        aims_(&aims),
+        emitters_(&emitters),
+        tiers_(tiers) {}
+
+  /// Faces `first` to `first + count`, all of one light, ascending; `ends`: the box around the ends of all of them,
+  /// `whole`: around all their points.
+  FaceLook look(const SubPatchView& view, const ReceiverGroup& group, const Link& link, std::uint32_t first,
+                std::uint32_t count, const LatticeBox& ends, const LatticeBox& whole) const;
+  /// Only `factor`, and of the faces within this reach; no segments.
+  FaceLook factors(const SubPatchView& view, const ReceiverGroup& group, Reach reach, std::uint32_t first,
+                   std::uint32_t count) const;
+
+ private:
+  enum class Tier : std::uint8_t { kNothing, kFar, kMiddle, kScaled, kNear };
+  struct Face;
+  struct Tile {
+    std::uint32_t first, count;  // ends
+  };
+  struct Seen;
+  class Leaves;
+
+  Tier tier_of(const SubPatchView& view, Face& face) const;
+  double mean_kernel(const SubPatchView& view, const Emitter& emitter) const;
+  void find_factors(const SubPatchView& view, const ReceiverGroup& group, Face& face) const;
+  /// Adds the face to `look`.
+  void look_at(const SubPatchView& view, const ReceiverGroup& group, const Link& link, Face& face, const Aim& aim,
+               FaceLook& look) const;
+  static bool is_split(const SubPatchView& view, const Emitter& emitter);
+  void look_at_leaves(const SubPatchView& view, const ReceiverGroup& group, const Link& link, const Face& face,
+                      const Aim& aim, Seen& seen) const;
+  void look_at_ends(const SubPatchView& view, const ReceiverGroup& group, const Link& link, const Face& face,
+                    const Aim& aim, Seen& seen) const;
+  Aim narrowed(const ReceiverGroup& group, std::span<const LatticePoint> ends, const Aim& aim) const;
+
+  const Scene* scene_;
+  const Geometry* geometry_;
+  Intersector* intersector_;
+  PatchAims* aims_;
+  const Emitters* emitters_;
+  double tiers_;
+};
+
+}  // namespace shodo

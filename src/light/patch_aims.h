@@ -1,0 +1,51 @@
+// What can come between a patch and each light, found once for all its sub-patches (paper 3.1).
+//
+// The walk through the tree of facets costs the most of an aim. From a patch to a light it is done once, when a
+// sub-patch first asks; what it finds is listed, and a sub-patch's own aim is what remains of the list. Where there is
+// no room, or a sub-patch's samples don't lie in the patch's box, the aim is made from the tree: the same facets but
+// for order. Bytes: 8 a light, and 4 for each of kListed facets.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "base/arena.h"
+#include "scene/scene.h"
+#include "visibility/intersector.h"
+
+namespace shodo {
+
+class PatchAims {
+ public:
+  explicit PatchAims(Intersector& intersector) : intersector_(&intersector) {}
+
+  bool take(Arena& arena, std::uint32_t lights);
+  static std::uint64_t bytes(std::uint32_t lights);
+
+  /// The sub-patches that come next have their samples in this box mostly; an empty one: nothing is to be listed.
+  void start(const LatticeBox& patch);
+
+  /// Wide aims from samples in `from` to ends of light l in `ends`, a part of `whole`, or along the way to a sun.
+  Aim towards(std::uint32_t l, const Link& link, const LatticeBox& from, const LatticeBox& ends,
+              const LatticeBox& whole);
+  Aim along(std::uint32_t l, const Link& link, const LatticeBox& from, const LatticeVector& direction);
+
+ private:
+  static constexpr std::uint32_t kListed = 1024;
+  static constexpr std::uint32_t kNotYet = 0xFFFFFFFF, kTooLong = 0xFFFFFFFE;
+  struct List {
+    std::uint32_t first, count;  // of facets_; count may be kNotYet or kTooLong
+  };
+
+  bool usable(const LatticeBox& from) const;
+  std::span<const std::uint32_t> facets_of(const List& list) const { return facets_.subspan(list.first, list.count); }
+  void keep(List& list, const Aim& aim);
+
+  Intersector* intersector_;
+  std::span<List> lists_;
+  std::span<std::uint32_t> facets_;
+  std::uint32_t used_ = 0;
+  LatticeBox patch_;
+};
+
+}  // namespace shodo
