@@ -61,9 +61,13 @@ $(BUILD)/libshodo.a: $(LIBRARY_OBJECTS) $(BUILD)/library.stamp
 $(BUILD)/shodo: $(PROGRAM_OBJECTS) $(BUILD)/libshodo.a $(BUILD)/program.stamp
 	$(CXX) $(OPT) $(CXXFLAGS) $(LDFLAGS) $(PROGRAM_OBJECTS) $(BUILD)/libshodo.a -o $@
 
-$(BUILD)/tests: $(TEST_OBJECTS) $(PROGRAM_PARTS) $(BUILD)/libshodo.a $(BUILD)/tests.stamp
+$(BUILD)/tests: $(TEST_OBJECTS) $(PROGRAM_PARTS) $(BUILD)/libshodo.a $(BUILD)/tests.stamp | $(BUILD)/system_faults.so
 	$(CXX) $(OPT) $(CXXFLAGS) $(LDFLAGS) $(TEST_LINK) $(TEST_OBJECTS) $(PROGRAM_PARTS) $(BUILD)/libshodo.a \
 	  -lgtest_main -lgtest -lpthread -o $@
+
+# Stands between the program and the system, for tests.
+$(BUILD)/system_faults.so: tests/faults/system_faults.cpp $(BUILD)/flags.stamp
+	$(CXX) $(COMMON_FLAGS) -shared -fPIC $< -ldl -o $@
 
 # Speed against error in both rooms, with the paper's table; workstation.json beside it is read if it is there.
 report: $(BUILD)/shodo
