@@ -4,7 +4,7 @@
 # Settings, on the command line of make:
 #   CXX=clang++ OPT=-O0   another compiler or optimisation; what was built with other flags is built again
 #   BUILD=DIR             where everything goes that is built
-#   PREFIX=DIR DESTDIR=DIR   where `make install` puts the program
+#   PREFIX=DIR DESTDIR=DIR   where `make install` puts the program and the library
 
 OPT = -O2
 BUILD = build
@@ -89,9 +89,17 @@ test: $(BUILD)/shodo $(BUILD)/tests
 check-same-bytes:
 	@sh tests/same_bytes
 
-install: $(BUILD)/shodo
-	mkdir -p $(DESTDIR)$(PREFIX)/bin
-	install -m 755 $(BUILD)/shodo $(DESTDIR)$(PREFIX)/bin/shodo
+# The program, the library with its headers, what pkg-config and man read (doc/library.md).
+VERSION = $(shell sed -n 's/.*kVersion = "shodo \(.*\)".*/\1/p' src/cli/arguments.h)
+INSTALLED = $(DESTDIR)$(PREFIX)
+install: $(BUILD)/shodo $(BUILD)/libshodo.a
+	mkdir -p $(INSTALLED)/bin $(INSTALLED)/lib/pkgconfig $(INSTALLED)/include/shodo $(INSTALLED)/share/man/man1
+	install -m 755 $(BUILD)/shodo $(INSTALLED)/bin/shodo
+	install -m 644 $(BUILD)/libshodo.a $(INSTALLED)/lib/libshodo.a
+	install -m 644 include/shodo/*.h $(INSTALLED)/include/shodo
+	install -m 644 doc/shodo.1 $(INSTALLED)/share/man/man1/shodo.1
+	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' tools/shodo.pc.in >$(INSTALLED)/lib/pkgconfig/shodo.pc
+	chmod 644 $(INSTALLED)/lib/pkgconfig/shodo.pc
 
 # Both rooms in the seconds of the paper's workstation, counted under QEMU: out/workstation.json.
 workstation:
