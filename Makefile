@@ -25,8 +25,8 @@ objects = $(patsubst %.cpp,$(BUILD)/objects/%.o,$(1))
 LIBRARY_OBJECTS = $(call objects,$(LIBRARY_SOURCES))
 PROGRAM_OBJECTS = $(call objects,$(PROGRAM_SOURCES))
 TEST_OBJECTS = $(call objects,$(TEST_SOURCES))
-# Tests see and refuse the library's blocks (tests/support/arena_hook.h): Arena::take_bytes, a size_t of 64 bits.
-TEST_LINK = -Wl,--wrap=_ZN5shodo5Arena10take_bytesEPKcm
+# Tests see and refuse the library's blocks (tests/support/arena_hook.h), where a size_t has 64 bits.
+TEST_LINK = -Wl,--wrap=_ZN5shodo5Arena10take_bytesEPKcm -Wl,--wrap=_ZN5shodo5Arena16take_spare_bytesEPKcm
 # The program but for main(), for the tests of its parts.
 PROGRAM_PARTS = $(filter-out $(BUILD)/objects/src/cli/main.o,$(PROGRAM_OBJECTS))
 

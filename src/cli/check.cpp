@@ -71,9 +71,9 @@ std::string memory_text(const Model& model, const Options& options, std::uint64_
   std::string text =
       "memory:    " + count(smallest_memory(model, draws), "byte", "bytes") + " are the smallest budget that works";
   text += smallest_memory(model, draws) > budget ? "; --memory " + size_text(budget) + " is too small\n" : "\n";
-  const std::uint64_t stages[] = {plan.load, plan.direct, plan.ambient, plan.map, plan.picture};
-  const char* const names[] = {"load", "direct", "ambient", "map", "picture"};
-  for (std::size_t k = 0; k < 5; ++k) {
+  const std::uint64_t stages[] = {plan.load, plan.direct, plan.ambient, plan.direct_again, plan.map, plan.picture};
+  const char* const names[] = {"load", "direct", "ambient", "direct again", "map", "picture"};
+  for (std::size_t k = 0; k < 6; ++k) {
     if (stages[k] != 0)
       text += "           " + grouped(model.overhead + stages[k]) + " at the most in stage " + names[k] + "\n";
   }
@@ -88,7 +88,7 @@ std::string memory_text(const Model& model, const Options& options, std::uint64_
 std::string warnings_text(const Model& model) {
   const Statistics& s = model.statistics;
   std::string text;
-  if (std::uint64_t{100} * s.patches_thin > model.patches.size()) {
+  if (std::uint64_t{100} * s.patches_thin > model.scene.patch_count) {
     text += "warning:   " + count(s.patches_thin, "patch is", "patches are") +
             " under 32 lattice steps wide, more than 1 % of them\n";
   }

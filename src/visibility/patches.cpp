@@ -33,6 +33,10 @@ Patch patch_of(const Geometry& geometry, std::uint32_t mesh, const Piece& piece)
 
 }  // namespace
 
+bool patch_dropped(const Scene& scene, const Geometry& geometry, std::uint32_t mesh, std::uint32_t local) {
+  return patch_of(geometry, mesh, patch_piece(scene, scene.meshes[mesh], local)).dropped != 0;
+}
+
 double sample_inset(const Patch& patch) { return patch.thin != 0 ? 0.25 : 0.0; }
 
 Status build_patches(const Scene& scene, const Geometry& geometry, Arena& arena, std::span<Patch>& patches,

@@ -1,6 +1,7 @@
 // The library as its callers see it: shodo.h alone, in memory of any size and alignment.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <initializer_list>
 #include <optional>
@@ -118,6 +119,36 @@ TEST(Pipeline, LessMemoryCostsTimeAndNeverPixels) {
     before = recomputed;
   }
   EXPECT_EQ(before, 0u) << "16 KiB more keep all rows of 88 patches";
+}
+
+TEST(Pipeline, WithTheSmallestMemorySubPatchesAreLitAndTrianglesPlacedOnceMore) {
+  for (const std::string name : kScenes) {
+    Pipeline roomy(name, kPlenty);
+    ASSERT_TRUE(roomy.picture().has_value());
+    EXPECT_EQ(statistics(roomy.model()).lit_again + statistics(roomy.model()).placed_again, 0u);
+    Pipeline tight(name, smallest_memory(roomy.model()));
+    ASSERT_TRUE(tight.picture().has_value());
+    EXPECT_EQ(statistics(tight.model()).lit_again + statistics(tight.model()).placed_again, name == "sun.scn" ? 0u : 2u)
+        << name;
+    EXPECT_EQ(statistics(tight.model()).segments_direct, statistics(roomy.model()).segments_direct)
+        << "what is done once more is not counted";
+  }
+}
+
+TEST(Pipeline, PeaksOfTheStagesAreWithinThePlansAndTheLargestIsThePeak) {
+  for (const std::string name : kScenes) {
+    Pipeline roomy(name, kPlenty);
+    Pipeline tight(name, smallest_memory(roomy.model()));
+    ASSERT_TRUE(tight.picture().has_value());
+    const Statistics& counted = statistics(tight.model());
+    std::uint64_t most = 0;
+    for (const std::uint64_t bytes : counted.stage_peak) {
+      EXPECT_GT(bytes, 0u);
+      most = std::max(most, bytes);
+    }
+    EXPECT_EQ(most, counted.memory_peak);
+    EXPECT_LE(most, smallest_memory(roomy.model()));
+  }
 }
 
 TEST(Pipeline, ALoadThatIsRefusedSaysHowManyBytesItWantedAndWritesNowhereElse) {

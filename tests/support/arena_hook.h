@@ -20,8 +20,8 @@ class ArenaHook {
   std::uint64_t taken() const { return taken_; }
   std::uint64_t refused() const { return refused_; }
 
-  /// Told of every block that was taken: its name, the bytes in use before it and after it.
-  void (*watch)(void* context, const char* name, std::size_t before, std::size_t after) = nullptr;
+  /// Told of every block that was taken.
+  void (*watch)(void* context, const char* name, std::size_t bytes) = nullptr;
   void* context = nullptr;
 
   /// For the hook itself: whether the next block is to be refused.
