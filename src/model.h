@@ -33,6 +33,7 @@ struct Model {
   IlluminanceMaps maps;
   std::uint64_t memory_bytes = 0;  // what the caller gave
   std::uint64_t overhead = 0;      // the part of it before the arena: this structure
+  Arena::Mark after_scene = 0;
   Arena::Mark after_geometry = 0;  // then come the patches
   Arena::Mark after_patches = 0;
   std::uint32_t loaded_spares = 0;

@@ -68,6 +68,7 @@ void count_scene(Model& model) {
 Status load_and_place(std::string_view name, std::string_view text, const Reader& reader, Model& model) {
   Status status = load_scene(name, text, reader, model.options, model.arena, model.scene);
   if (!status.done()) return status;
+  model.after_scene = model.arena.mark();
   status = place_scene(model.scene, model.arena, model.geometry);
   if (!status.done()) return status;
   model.after_geometry = model.arena.mark();
@@ -229,7 +230,7 @@ Status draw(Model& model, const Progress& progress, const LineSink& sink) {
 const Statistics& statistics(const Model& model) { return model.statistics; }
 
 std::uint64_t smallest_memory(const Model& model, bool picture) {
-  return model.overhead + plan_memory(model, picture).peak();
+  return plan_memory(model, picture).peak();
 }
 
 const char* stage_name(Stage stage) {
