@@ -1,4 +1,4 @@
-# shodo: `make` builds build/shodo. Other targets: rooms, report, test, check-same-bytes, workstation, install,
+# shodo: `make` builds build/shodo. Other targets: rooms, report, test, check-same-bytes, workstation, memory-cost, install,
 # install-needs, clean.
 #
 # Settings, on the command line of make:
@@ -105,6 +105,10 @@ install: $(BUILD)/shodo $(BUILD)/libshodo.a
 workstation:
 	@sh tools/workstation $(WORKSTATION_OPTIONS)
 
+# What less memory costs, in the same seconds: out/memory-cost.csv, which the report draws.
+memory-cost:
+	@sh tools/memory-cost $(MEMORY_COST_OPTIONS)
+
 install-needs:
 	sh tools/install-needs test
 
@@ -112,7 +116,7 @@ clean:
 	rm -rf $(BUILD) $(OUT)
 
 FORCE:
-.PHONY: all rooms report test check-same-bytes workstation install install-needs clean FORCE
+.PHONY: all rooms report test check-same-bytes workstation memory-cost install install-needs clean FORCE
 .SECONDARY:
 
 -include $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(TEST_OBJECTS:.o=.d)

@@ -29,7 +29,7 @@ int read_whole(const std::string& path, std::string& text) {
   if (file.descriptor < 0) return errno;
   int error = 0;
   for (;;) {
-    constexpr std::size_t kStep = 256 * 1024;
+    constexpr std::size_t kStep = 16 * 1024;
     const std::size_t size = text.size();
     text.resize(size + kStep);
     const ssize_t got = ::read(file.descriptor, text.data() + size, kStep);

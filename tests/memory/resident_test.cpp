@@ -7,12 +7,14 @@ namespace shodo {
 namespace {
 
 /// doc/memory.md: the program's code and data, the C and C++ libraries, stack, heap.
-constexpr long kConstantKib = 6 * 1024;
+constexpr long kConstantKib = 4 * 1024;
 
 long peak_kib(const std::string& memory, const std::string& size, const std::string& file) {
   const TestFolder folder;
   const WatchedOutcome outcome = watched_run(
-      {"render", test_scene("shapes.scn"), "-o", file, "--memory", memory, "--size", size, "--refine", "2"}, folder.path());
+      {"render", test_scene("shapes.scn"), "-o", file, "--memory", memory, "--size", size, "--refine", "4",
+       "--segments", "1,1"},
+      folder.path());
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   return outcome.seen.at("peak_kib");
 }
