@@ -124,7 +124,7 @@ int report(const Arguments& arguments) {
   Document document = report_document(results, workstation_options(json));
   add_memory_chapter(document, memory_costs(file_beside(arguments.output, "memory-cost.csv")));
   if (!write_report(document, folder, error)) return run.tell(error);
-  if (interrupt_asked()) return static_cast<int>(StatusCode::kInterrupted);
+  if (const int status = run.tell_interrupt(); status != 0) return status;
   return folder.commit(error) ? 0 : run.tell(error);
 }
 

@@ -38,7 +38,7 @@ Status Run::load_into(std::size_t bytes) {
   memory_.emplace(bytes);
   if (memory_->start() == nullptr) {
     Status status;
-    status.code = StatusCode::kMemory;
+    status.code = StatusCode::kFile;
     std::snprintf(status.message, sizeof status.message, "the system refuses %s of memory", size_text(bytes).c_str());
     return status;
   }
@@ -48,7 +48,6 @@ Status Run::load_into(std::size_t bytes) {
 int Run::load_in_budget() {
   if (const int status = read_scene(); status != 0) return status;
   const Status status = load_into(arguments_.memory);
-  if (memory_->start() == nullptr) return tell(status);
   if (status.code == StatusCode::kMemory) {
     if (const int other = load_at_any_size(); other != 0) return other;
     return refuse_budget(smallest_memory(*model_, draws_));

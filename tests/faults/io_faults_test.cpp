@@ -25,7 +25,8 @@ std::vector<Command> commands() {
       {"render to PPM with tables", {"render", box, "-o", "x.ppm", "--csv", "x.csv", "--stats", "x.json"}},
       {"render to PNG", {"render", box, "-o", "x.png"}},
       {"map", {"map", shapes, "-o", "maps", "--segments", "1,1", "--csv", "x.csv"}},
-      {"check", {"check", shapes}}};
+      {"check", {"check", shapes}},
+      {"report", {"report", test_scene("sun.scn"), "-o", "report", "--size", "8x6", "--segments", "1,1"}}};
   for (std::size_t k = 0; k < 2; ++k) all[k].words.insert(all[k].words.end(), size.begin(), size.end());
   return all;
 }
@@ -72,7 +73,7 @@ int run_with(const Command& command, const std::string& fault, const Usual& usua
     EXPECT_EQ(files, usual.files);
     EXPECT_EQ(outcome.out, usual.outcome.out);
   } else {
-    EXPECT_TRUE(outcome.status == 1 || outcome.status == 4 || outcome.status == 130) << outcome.status;
+    EXPECT_TRUE(outcome.status == 1 || outcome.status == 130) << outcome.status;
     EXPECT_EQ(lines_of(outcome.err).size(), 1u) << outcome.err;
     for (const auto& [name, text] : files) {
       EXPECT_TRUE(usual.files.contains(name) && usual.files.at(name) == text) << name << " is partial";
@@ -85,29 +86,28 @@ int run_with(const Command& command, const std::string& fault, const Usual& usua
   return outcome.status;
 }
 
+/// A report reads and closes its scene once a case: some of many calls stand for all.
+long step_of(const Command& command, long calls) { return command.name == "report" && calls > 16 ? calls / 6 : 1; }
+
 struct Fault {
   std::string call;
   std::string what;
-  int status;  // the only one allowed
 };
 
-TEST(IoFaults, EveryCallThatFailsEndsTheRunWithItsStatusAndLeavesNothing) {
-  const Fault faults[] = {{"read", std::to_string(EIO), 1},        {"write", std::to_string(EIO), 1},
-                          {"write", std::to_string(ENOSPC), 1},    {"write", std::to_string(EPIPE), 1},
-                          {"rename", std::to_string(EACCES), 1},   {"mkostemp", std::to_string(EMFILE), 1},
-                          {"mkdtemp", std::to_string(EACCES), 1},  {"chmod", std::to_string(EPERM), 1},
-                          {"mmap", std::to_string(ENOMEM), 4}};
+TEST(IoFaults, EveryCallThatFailsEndsTheRunWithStatus1AndLeavesNothing) {
+  const Fault faults[] = {{"read", std::to_string(EIO)},    {"write", std::to_string(EIO)},
+                          {"write", std::to_string(ENOSPC)}, {"write", std::to_string(EPIPE)},
+                          {"rename", std::to_string(EACCES)}, {"mkostemp", std::to_string(EMFILE)},
+                          {"mkdtemp", std::to_string(EACCES)}, {"chmod", std::to_string(EPERM)},
+                          {"mmap", std::to_string(ENOMEM)}};
   for (const Command& command : commands()) {
     Usual usual(command);
     for (const Fault& fault : faults) {
       const long calls = usual.outcome.seen[fault.call];
-      for (long k = 1; k <= calls; ++k) {
+      for (long k = 1; k <= calls; k += step_of(command, calls)) {
         for (const char* on : {":", "-:"}) {
           const std::string text = fault.call + ":" + std::to_string(k) + on + fault.what;
-          const int status = run_with(command, text, usual);
-          // check asks for another piece of memory, and then gets it.
-          const bool asks_again = command.name == "check" && fault.call == "mmap" && status == 0;
-          EXPECT_TRUE(status == fault.status || asks_again) << command.name << ", " << text << ": " << status;
+          EXPECT_EQ(run_with(command, text, usual), 1) << command.name << ", " << text;
         }
       }
     }
@@ -120,7 +120,8 @@ TEST(IoFaults, AFailedCloseOrOpenIsStatus1OrDidNoHarm) {
     Usual usual(command);
     for (const std::string call : {"close", "open", "opendir"}) {
       long failed = 0;
-      for (long k = 1; k <= usual.outcome.seen[call]; ++k) {
+      const long calls = usual.outcome.seen[call];
+      for (long k = 1; k <= calls; k += step_of(command, calls)) {
         const std::string fault = call + ":" + std::to_string(k) + ":" + std::to_string(EIO);
         failed += run_with(command, fault, usual) == 0 ? 0 : 1;
       }
@@ -136,7 +137,8 @@ TEST(IoFaults, ShortReadsAndWritesAndInterruptedCallsChangeNothing) {
     Usual usual(command);
     for (const std::string call : {"read", "write"}) {
       EXPECT_EQ(run_with(command, call + ":1-:short", usual), 0);
-      for (long k = 1; k <= usual.outcome.seen[call]; ++k) {
+      const long calls = usual.outcome.seen[call];
+      for (long k = 1; k <= calls; k += step_of(command, calls)) {
         EXPECT_EQ(run_with(command, call + ":" + std::to_string(k) + ":short", usual), 0);
         EXPECT_EQ(run_with(command, call + ":" + std::to_string(k) + ":" + std::to_string(EINTR), usual), 0);
       }
@@ -146,6 +148,7 @@ TEST(IoFaults, ShortReadsAndWritesAndInterruptedCallsChangeNothing) {
 
 TEST(IoFaults, ASystemWithoutMemoryIsStatus1WhereverItRunsOut) {
   for (const Command& command : commands()) {
+    if (command.name == "report") continue;  // on several cores no two runs ask in the same order
     Usual usual(command);
     const long calls = usual.outcome.seen["malloc"];
     // All of the first, then one in 97: the table alone makes over a thousand.
@@ -161,7 +164,8 @@ TEST(IoFaults, AnInterruptAtAnyCallIsStatus130AndLeavesNothingOrComesTooLate) {
     Usual usual(command);
     long stopped = 0;
     for (const std::string call : {"open", "read", "write", "close", "rename", "mkostemp", "mkdtemp", "chmod"}) {
-      for (long k = 1; k <= usual.outcome.seen[call]; ++k) {
+      const long calls = usual.outcome.seen[call];
+      for (long k = 1; k <= calls; k += step_of(command, calls)) {
         const int status = run_with(command, call + ":" + std::to_string(k) + ":interrupt", usual);
         EXPECT_TRUE(status == 130 || (status == 0 && (call != "read" && call != "mkdtemp")))
             << command.name << ", " << call << " " << k;

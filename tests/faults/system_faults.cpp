@@ -17,6 +17,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -29,12 +30,12 @@ const char* const kNames[kCalls] = {"open",  "read",  "write",   "close", "renam
                                     "mkdtemp", "chmod", "opendir", "mmap",  "malloc"};
 
 struct State {
-  long count[kCalls];
+  std::atomic<long> count[kCalls];  // a report runs on several cores
   int call;  // kCalls: none
   long first, last;
   int error;  // 0: no failure
   bool is_short, interrupts;
-  long blocks, descriptors, maps;
+  std::atomic<long> blocks, descriptors, maps;
 };
 State g;
 bool g_ready = false;
@@ -88,15 +89,14 @@ __attribute__((destructor)) void finish() {
   g_ready = false;
   const char* path = getenv("SHODO_LOG");
   if (path == nullptr) return;
-  const State seen = g;
   const long peak = status_number("VmHWM:");
   char text[1024];
   int size = 0;
   for (int call = 0; call < kCalls; ++call) {
-    size += snprintf(text + size, sizeof text - static_cast<size_t>(size), "%s %ld\n", kNames[call], seen.count[call]);
+    size += snprintf(text + size, sizeof text - static_cast<size_t>(size), "%s %ld\n", kNames[call], g.count[call].load());
   }
-  size += snprintf(text + size, sizeof text - static_cast<size_t>(size), "blocks %ld\ndescriptors %ld\nmaps %ld\npeak_kib %ld\n",
-                   seen.blocks, seen.descriptors, seen.maps, peak);
+  size += snprintf(text + size, sizeof text - static_cast<size_t>(size),
+                   "blocks %ld\ndescriptors %ld\nmaps %ld\npeak_kib %ld\n", g.blocks.load(), g.descriptors.load(), g.maps.load(), peak);
   const int file = next("open", &open)(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
   if (next("write", &write)(file, text, static_cast<size_t>(size)) != size) abort();
   next("close", &close)(file);

@@ -13,11 +13,9 @@ namespace shodo {
 struct WatchedOutcome : Outcome {
   std::map<std::string, long> seen;  // calls by name, and "blocks", "descriptors", "maps", "peak_kib"
 
+  /// Nothing is left that isn't left at the end of a usual run: what the C library keeps for itself.
   bool gave_all_back(const WatchedOutcome& usual) const {
-    for (const char* kind : {"blocks", "descriptors", "maps"}) {
-      if (seen.at(kind) != usual.seen.at(kind)) return false;
-    }
-    return true;
+    return seen.at("blocks") <= usual.seen.at("blocks") && seen.at("descriptors") == 0 && seen.at("maps") == 0;
   }
 };
 
