@@ -1,5 +1,5 @@
-# shodo: `make` builds build/shodo. Other targets: rooms, report, test, check-same-bytes, workstation, memory-cost, install,
-# install-needs, clean.
+# shodo: `make` builds build/shodo. Other targets: rooms, report, test, check-same-bytes, workstation, memory-cost,
+# check-budgets, install, install-needs, clean.
 #
 # Settings, on the command line of make:
 #   CXX=clang++ OPT=-O0   another compiler or optimisation; what was built with other flags is built again
@@ -109,6 +109,10 @@ workstation:
 memory-cost:
 	@sh tools/memory-cost $(MEMORY_COST_OPTIONS)
 
+# Both rooms with every budget in steps of 1 %; takes hours.
+check-budgets:
+	@sh tools/check-budgets $(MEMORY_COST_OPTIONS)
+
 install-needs:
 	sh tools/install-needs test
 
@@ -116,7 +120,7 @@ clean:
 	rm -rf $(BUILD) $(OUT)
 
 FORCE:
-.PHONY: all rooms report test check-same-bytes workstation memory-cost install install-needs clean FORCE
+.PHONY: all rooms report test check-same-bytes workstation memory-cost check-budgets install install-needs clean FORCE
 .SECONDARY:
 
 -include $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(TEST_OBJECTS:.o=.d)
