@@ -180,6 +180,23 @@ TEST(Pipeline, SolvingTwiceGivesTheSameAndCountsOnce) {
   EXPECT_EQ(again.patches_thin, counted.patches_thin);
 }
 
+/// Where memory is short the picture takes that of the patches, and the light takes it back.
+TEST(Pipeline, SolvingAndDrawingAgainInTheSmallestMemoryGivesTheSame) {
+  for (const std::string name : kScenes) {
+    Pipeline roomy(name, kPlenty);
+    const auto expected = roomy.picture();
+    Pipeline tight(name, smallest_memory(roomy.model()));
+    EXPECT_TRUE(tight.picture() == expected) << name;
+    EXPECT_TRUE(tight.drawn() == expected) << name << ", drawn again";
+    EXPECT_TRUE(tight.picture() == expected) << name << ", solved again";
+    int calls = 5;
+    const Progress stop{[](void* left, Stage, std::uint64_t, std::uint64_t) { return --*static_cast<int*>(left) > 0; },
+                        &calls};
+    EXPECT_EQ(solve(tight.model(), stop).code, StatusCode::kInterrupted);
+    EXPECT_TRUE(tight.picture() == expected) << name << ", after an interrupt";
+  }
+}
+
 TEST(Pipeline, DrawingNeedsASolvedModel) {
   Pipeline pipeline("sun.scn", kPlenty);
   EXPECT_EQ(draw(pipeline.model(), {}, {}).code, StatusCode::kUsage);
