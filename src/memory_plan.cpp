@@ -24,7 +24,6 @@ std::uint64_t drawn_bytes(const Model& model) {
 
 /// What load() leaves, and what it takes meanwhile.
 void plan_scene(const Model& model, MemoryPlan& plan) {
-  const std::uint64_t patches = model.after_patches - model.after_geometry;
   plan.add("the model", "its structure, and up to 7 for alignment", model.overhead, kAll);
   plan.add("scene", "40 materials + 40 objects + 56 meshes + 24 vertices + 248 lights + 96 cameras + names",
            model.after_scene, kAll);
@@ -35,7 +34,6 @@ void plan_scene(const Model& model, MemoryPlan& plan) {
   const std::uint64_t left = model.after_geometry + drawn_bytes(model) + model.overhead;
   plan.add("while placing", "16 vertices + 24 polygons + 12 insertions + a tree; then 72 n, the patches",
            model.loaded.stage_peak[0] - left, kLoad);
-  plan.add("patches", "72 n", patches, kLight);
 }
 
 void plan_light(const Model& model, MemoryPlan& plan) {
@@ -46,11 +44,13 @@ void plan_light(const Model& model, MemoryPlan& plan) {
   plan.add("possible blockers", "32 facets + 24 boxes + 8 facets", Intersector::bytes(model.geometry, options.flags),
            kDirect | kAgain | (scene.patch_count > 0 ? kAmbient : 0));
   plan.add("light sources", "80 lights + 72 faces that emit", Sources::bytes(scene), kDirect | kAgain);
-  const std::uint64_t result = ambient_result_bytes(scene), surfaces = surfaces_bytes(scene, options);
+  const std::uint64_t result = ambient_result_bytes(scene);
+  const std::uint64_t surfaces = surfaces_bytes(scene, options, SurfacesKeep::kNothing);
+  const std::uint64_t ambient = smallest_ambient_bytes(scene, options, SurfacesKeep::kNothing);
   plan.add("ambient light of the patches", "8 c n", result, kAmbient | kAgain | kMap);
-  plan.add("surfaces", "16 a node + 12 a sample + 96 shapes + 136 blocks + 33 meshes", surfaces, kAmbient);
+  plan.add("surfaces", "12 a node + 40 blocks + 33 meshes + 3,712; their geometry is found again", surfaces, kAmbient);
   plan.add("solution", "16 c + 8 a node + one row + lists of links + the coarse correction; rows: what is left",
-           smallest_ambient_bytes(scene, options) - result - surfaces, kAmbient);
+           ambient - result - surfaces, kAmbient);
   plan.add("direct light of the sub-patches", "(4 c + 1) s; spare: given up to the rows", direct_sub_patch_bytes(scene),
            kAgain | kMap | kPicture);
 }
@@ -102,6 +102,20 @@ MemoryPlan plan_memory(const Model& model, bool picture) {
   plan_picture(model, plan);
   if (!picture) plan.stage[static_cast<std::size_t>(PlanStage::kPicture)] = 0;
   return plan;
+}
+
+bool keeps_geometry(const Model& model) {
+  const Scene& scene = model.scene;
+  const Options& options = model.options;
+  const std::uint64_t flags = options.flags == FlagMode::kOff ? 0 : FlagTables::bytes(scene);
+  const std::uint64_t blockers = Intersector::bytes(model.geometry, options.flags);
+  const std::uint64_t patches = model.after_patches + flags + direct_patch_bytes(scene);
+  const std::uint64_t solved = patches + ambient_result_bytes(scene) + direct_sub_patch_bytes(scene);
+  std::uint64_t most = patches + blockers + smallest_ambient_bytes(scene, options, SurfacesKeep::kGeometry) +
+                       expected_row_bytes(scene, options);
+  most = larger(most, solved + blockers + Sources::bytes(scene));
+  most = larger(most, solved + map_bytes(scene, options));
+  return most <= model.arena.capacity();
 }
 
 }  // namespace shodo

@@ -40,6 +40,9 @@ struct MemoryPlan {
 /// Of a loaded model, in bytes of the caller's memory; `picture`: whether the picture is drawn too.
 MemoryPlan plan_memory(const Model& model, bool picture);
 
+/// Whether there is room for the patches and the geometry of all nodes; the plan is made without.
+bool keeps_geometry(const Model& model);
+
 /// Arena bytes of drawing without the drawn triangles at hand.
 std::uint64_t drawn_and_picture_bytes(const Model& model);
 

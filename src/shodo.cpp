@@ -103,6 +103,25 @@ Status keep_sub_patches(Model& model, Intersector& intersector, const Progress& 
   return status;
 }
 
+/// The patches of load(), or new ones if the picture had their memory; none where memory is short.
+Status take_patches(Model& model) {
+  if (!keeps_geometry(model)) {
+    model.arena.release(model.after_geometry);
+    model.patches = {};
+    model.statistics.geometry_again = 1;
+    return {};
+  }
+  if (!model.patches.empty()) {
+    model.arena.release(model.after_patches);
+    return {};
+  }
+  model.arena.release(model.after_geometry);
+  const Statistics counted = model.statistics;
+  const Status status = build_patches(model.scene, model.geometry, model.arena, model.patches, model.statistics);
+  model.statistics = counted;
+  return status;
+}
+
 Status light_and_map(Model& model, const Progress& progress) {
   Intersector intersector(model.geometry, model.scene, model.options.flags);
   if (!intersector.take_flags(model.arena)) return model.arena.refused();
@@ -203,13 +222,8 @@ Status solve(Model& model, const Progress& progress) {
   if (needed > model.memory_bytes) return too_small(needed, model.memory_bytes);
   model.arena.release_spares(model.loaded_spares);
   model.arena.pin_spares(0);
-  Status status;
-  if (model.patches.empty()) {
-    model.arena.release(model.after_geometry);
-    status = build_patches(model.scene, model.geometry, model.arena, model.patches, model.statistics);
-    if (!status.done()) return with_model(status, model.overhead);
-  }
-  model.arena.release(model.after_patches);
+  Status status = take_patches(model);
+  if (!status.done()) return with_model(status, model.overhead);
   model.arena.start_stage();
   status = light_and_map(model, progress);
   model.solved = status.done();

@@ -47,6 +47,7 @@ struct Statistics {
   std::uint64_t memory_peak = 0;
   std::uint64_t stage_peak[kMemoryStageCount] = {};  // bytes, by MemoryStage
   std::uint32_t lit_again = 0;            // 1: the memory of the sub-patches' direct light was wanted in between
+  std::uint32_t geometry_again = 0;       // 1: patches and blocks were found again at each look
   std::uint32_t placed_again = 0;         // 1: that of the picture's triangles
 };
 

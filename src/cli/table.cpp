@@ -53,7 +53,8 @@ bool write_table(const Model& model, OutputFile& file, FileError& error) {
     const std::string columns = std::string(model.scene.objects[mesh.object].name) + "," + std::to_string(m);
     for (std::uint32_t local = 0; local < mesh.sub_patch_count(); ++local) {
       // Drawing may have taken the memory of the patches.
-      if (patch_dropped(model.scene, model.geometry, m, patch_of_sub_patch(mesh, local))) continue;
+      const std::uint32_t patch = patch_of_sub_patch(mesh, local);
+      if (make_patch(model.scene, model.geometry, m, patch).dropped != 0) continue;
       if (!file.write(table_line(model, columns, mesh, local), error)) return false;
     }
   }

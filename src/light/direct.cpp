@@ -202,7 +202,8 @@ Status light_directly(const Scene& scene, const Geometry& geometry, std::span<co
   DirectStage stage(scene, geometry, sources, direct);
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
     for (std::uint32_t local = 0; local < scene.meshes[m].patch_count(); ++local) {
-      if (patches[scene.meshes[m].first_patch + local].dropped != 0) continue;
+      const std::uint32_t patch = scene.meshes[m].first_patch + local;
+      if ((patches.empty() ? make_patch(scene, geometry, m, local) : patches[patch]).dropped != 0) continue;
       if (!stage.light_patch(m, local, progress)) return interrupted();
     }
   }

@@ -30,7 +30,7 @@ enum class DirectKeeps : std::uint8_t {
   kSubPatches,  // once more, after kPatches and with the same answers: patches' values are there
 };
 
-/// Errors: kMemory, kInterrupted.
+/// `patches` may be empty: then each is found again. Errors: kMemory, kInterrupted.
 Status light_directly(const Scene& scene, const Geometry& geometry, std::span<const Patch> patches,
                       Intersector& intersector, const Progress& progress, Arena& arena, DirectLight& direct,
                       Statistics& statistics, DirectKeeps keeps = DirectKeeps::kPatches);

@@ -67,8 +67,8 @@ bool place_drawn(const Scene& scene, Arena& arena, Geometry& geometry);
 Status build_patches(const Scene& scene, const Geometry& geometry, Arena& arena, std::span<Patch>& patches,
                      Statistics& statistics);
 
-/// Patch::dropped of a patch, counted from its mesh's first.
-bool patch_dropped(const Scene& scene, const Geometry& geometry, std::uint32_t mesh, std::uint32_t local);
+/// One of them, counted from its mesh's first; the same bits.
+Patch make_patch(const Scene& scene, const Geometry& geometry, std::uint32_t mesh, std::uint32_t local);
 
 /// How far in from a patch's borders its samples keep, of its sides: 0, or 1/4 for a thin one, whose lattice positions
 /// would leave it otherwise. A sample at parameter s of 0 .. 1 goes to inset + (1 - 2 inset) s.

@@ -316,6 +316,7 @@ TEST(StatisticsFile, HasTheKeysOfTheContractInItsOrder) {
                                          "memory.map",
                                          "memory.picture",
                                          "memory.lit_again",
+                                         "memory.geometry_again",
                                          "memory.placed_again",
                                          "seconds",
                                          "seconds.load",

@@ -19,7 +19,7 @@ struct Sweep {
 
   std::string scene;
   Rules rules;
-  std::uint32_t refused = 0, done = 0, lit_again = 0, placed_again = 0, rows_recomputed = 0;
+  std::uint32_t refused = 0, done = 0, lit_again = 0, placed_again = 0, geometry_again = 0, rows_recomputed = 0;
 
   /// The picture, or nothing if the budget is refused, as it must be before anything is lit.
   std::optional<std::string> run(std::uint64_t bytes, std::uint64_t& smallest) {
@@ -57,6 +57,7 @@ struct Sweep {
     EXPECT_LE(counted.memory_peak, bytes);
     lit_again += counted.lit_again;
     placed_again += counted.placed_again;
+    geometry_again += counted.geometry_again;
     rows_recomputed += counted.rows_recomputed > 0 ? 1 : 0;
     ++done;
     return picture;
@@ -84,6 +85,7 @@ void sweep(Sweep& sweep, std::uint64_t step) {
   // The sweep has passed through everything that a small budget does.
   EXPECT_GT(sweep.lit_again, 0u);
   EXPECT_GT(sweep.placed_again, 0u);
+  EXPECT_GT(sweep.geometry_again, 0u);
   EXPECT_GT(sweep.rows_recomputed, 0u);
   EXPECT_LT(sweep.rows_recomputed, sweep.done);
 }
