@@ -1,10 +1,10 @@
-# shodo: `make` builds build/shodo. Other targets: rooms, report, test, check-same-bytes, workstation, install,
-# install-needs, clean.
+# shodo: `make` builds build/shodo. Other targets: rooms, report, test, check-same-bytes, workstation, memory-cost,
+# check-budgets, install, install-needs, clean.
 #
 # Settings, on the command line of make:
 #   CXX=clang++ OPT=-O0   another compiler or optimisation; what was built with other flags is built again
 #   BUILD=DIR             where everything goes that is built
-#   PREFIX=DIR DESTDIR=DIR   where `make install` puts the program
+#   PREFIX=DIR DESTDIR=DIR   where `make install` puts the program and the library
 
 OPT = -O2
 BUILD = build
@@ -25,6 +25,8 @@ objects = $(patsubst %.cpp,$(BUILD)/objects/%.o,$(1))
 LIBRARY_OBJECTS = $(call objects,$(LIBRARY_SOURCES))
 PROGRAM_OBJECTS = $(call objects,$(PROGRAM_SOURCES))
 TEST_OBJECTS = $(call objects,$(TEST_SOURCES))
+# Tests see and refuse the library's blocks (tests/support/arena_hook.h), where a size_t has 64 bits.
+TEST_LINK = -Wl,--wrap=_ZN5shodo5Arena10take_bytesEPKcm -Wl,--wrap=_ZN5shodo5Arena16take_spare_bytesEPKcm
 # The program but for main(), for the tests of its parts.
 PROGRAM_PARTS = $(filter-out $(BUILD)/objects/src/cli/main.o,$(PROGRAM_OBJECTS))
 
@@ -59,8 +61,13 @@ $(BUILD)/libshodo.a: $(LIBRARY_OBJECTS) $(BUILD)/library.stamp
 $(BUILD)/shodo: $(PROGRAM_OBJECTS) $(BUILD)/libshodo.a $(BUILD)/program.stamp
 	$(CXX) $(OPT) $(CXXFLAGS) $(LDFLAGS) $(PROGRAM_OBJECTS) $(BUILD)/libshodo.a -o $@
 
-$(BUILD)/tests: $(TEST_OBJECTS) $(PROGRAM_PARTS) $(BUILD)/libshodo.a $(BUILD)/tests.stamp
-	$(CXX) $(OPT) $(CXXFLAGS) $(LDFLAGS) $(TEST_OBJECTS) $(PROGRAM_PARTS) $(BUILD)/libshodo.a -lgtest_main -lgtest -lpthread -o $@
+$(BUILD)/tests: $(TEST_OBJECTS) $(PROGRAM_PARTS) $(BUILD)/libshodo.a $(BUILD)/tests.stamp | $(BUILD)/system_faults.so
+	$(CXX) $(OPT) $(CXXFLAGS) $(LDFLAGS) $(TEST_LINK) $(TEST_OBJECTS) $(PROGRAM_PARTS) $(BUILD)/libshodo.a \
+	  -lgtest_main -lgtest -lpthread -o $@
+
+# Stands between the program and the system, for tests.
+$(BUILD)/system_faults.so: tests/faults/system_faults.cpp $(BUILD)/flags.stamp
+	$(CXX) $(COMMON_FLAGS) -shared -fPIC $< -ldl -o $@
 
 # Speed against error in both rooms, with the paper's table; workstation.json beside it is read if it is there.
 report: $(BUILD)/shodo
@@ -82,13 +89,29 @@ test: $(BUILD)/shodo $(BUILD)/tests
 check-same-bytes:
 	@sh tests/same_bytes
 
-install: $(BUILD)/shodo
-	mkdir -p $(DESTDIR)$(PREFIX)/bin
-	install -m 755 $(BUILD)/shodo $(DESTDIR)$(PREFIX)/bin/shodo
+# The program, the library with its headers, what pkg-config and man read (doc/library.md).
+VERSION = $(shell sed -n 's/.*kVersion = "shodo \(.*\)".*/\1/p' src/cli/arguments.h)
+INSTALLED = $(DESTDIR)$(PREFIX)
+install: $(BUILD)/shodo $(BUILD)/libshodo.a
+	mkdir -p $(INSTALLED)/bin $(INSTALLED)/lib/pkgconfig $(INSTALLED)/include/shodo $(INSTALLED)/share/man/man1
+	install -m 755 $(BUILD)/shodo $(INSTALLED)/bin/shodo
+	install -m 644 $(BUILD)/libshodo.a $(INSTALLED)/lib/libshodo.a
+	install -m 644 include/shodo/*.h $(INSTALLED)/include/shodo
+	install -m 644 doc/shodo.1 $(INSTALLED)/share/man/man1/shodo.1
+	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' tools/shodo.pc.in >$(INSTALLED)/lib/pkgconfig/shodo.pc
+	chmod 644 $(INSTALLED)/lib/pkgconfig/shodo.pc
 
 # Both rooms in the seconds of the paper's workstation, counted under QEMU: out/workstation.json.
 workstation:
 	@sh tools/workstation $(WORKSTATION_OPTIONS)
+
+# What less memory costs, in the same seconds: out/memory-cost.csv, which the report draws.
+memory-cost:
+	@sh tools/memory-cost $(MEMORY_COST_OPTIONS)
+
+# Both rooms with every budget in steps of 1 %; takes hours.
+check-budgets:
+	@sh tools/check-budgets $(MEMORY_COST_OPTIONS)
 
 install-needs:
 	sh tools/install-needs test
@@ -97,7 +120,7 @@ clean:
 	rm -rf $(BUILD) $(OUT)
 
 FORCE:
-.PHONY: all rooms report test check-same-bytes workstation install install-needs clean FORCE
+.PHONY: all rooms report test check-same-bytes workstation memory-cost check-budgets install install-needs clean FORCE
 .SECONDARY:
 
 -include $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(TEST_OBJECTS:.o=.d)

@@ -26,15 +26,19 @@ struct Model {
   Statistics statistics;
   Scene scene;
   Geometry geometry;
-  std::span<Patch> patches;
+  std::span<Patch> patches;        // like all that is by patch: until the picture wants the memory
   FlagTables flags;                // of paper 3.1, and what was found; empty with flags off
   DirectLight direct;
   AmbientLight ambient;
   IlluminanceMaps maps;
   std::uint64_t memory_bytes = 0;  // what the caller gave
   std::uint64_t overhead = 0;      // the part of it before the arena: this structure
-  std::uint64_t load_peak = 0;     // of the arena
-  Arena::Mark after_load = 0;      // what solve() starts from
+  Arena::Mark after_scene = 0;
+  Arena::Mark after_geometry = 0;  // then come the patches
+  Arena::Mark after_patches = 0;
+  std::uint32_t loaded_spares = 0;
+  std::uint64_t picture_scratch = 0;  // bytes of draw_picture(); found while the drawn triangles are there
+  Arena::Mark before_maps = 0;     // what the picture is made of comes from here on
   Statistics loaded;               // and what was counted until then
   bool solved = false;
 };

@@ -68,9 +68,58 @@ void count_scene(Model& model) {
 Status load_and_place(std::string_view name, std::string_view text, const Reader& reader, Model& model) {
   Status status = load_scene(name, text, reader, model.options, model.arena, model.scene);
   if (!status.done()) return status;
+  model.after_scene = model.arena.mark();
   status = place_scene(model.scene, model.arena, model.geometry);
   if (!status.done()) return status;
-  return build_patches(model.scene, model.geometry, model.arena, model.patches, model.statistics);
+  model.after_geometry = model.arena.mark();
+  model.loaded_spares = model.arena.spares();
+  status = build_patches(model.scene, model.geometry, model.arena, model.patches, model.statistics);
+  model.after_patches = model.arena.mark();
+  return status;
+}
+
+void end_stage(Model& model, MemoryStage stage) {
+  std::uint64_t& peak = model.statistics.stage_peak[static_cast<std::size_t>(stage)];
+  const std::uint64_t bytes = model.overhead + model.arena.stage_peak();
+  if (bytes > peak) peak = bytes;
+  model.statistics.memory_peak = model.overhead + model.arena.peak();
+  model.arena.start_stage();
+}
+
+/// The sub-patches' direct light stands in spare blocks; if the rows took them, all is lit once more.
+Status keep_sub_patches(Model& model, Intersector& intersector, const Progress& progress) {
+  Arena& arena = model.arena;
+  DirectLight& direct = model.direct;
+  const bool held = !direct.hidden.empty() && arena.holds(direct.hidden) && arena.holds(direct.sub_patch_lx);
+  arena.pin_spares(held ? arena.spares() : 0);
+  if ((held || model.scene.sub_patch_count == 0) && map_bytes(model.scene, model.options) <= arena.left()) return {};
+  arena.release_spares(model.loaded_spares);
+  arena.pin_spares(0);
+  const Statistics counted = model.statistics;
+  const Status status = light_directly(model.scene, model.geometry, model.patches, model.options, intersector,
+                                       progress, arena, direct, model.statistics, DirectKeeps::kSubPatches);
+  model.statistics = counted;
+  model.statistics.lit_again = 1;
+  return status;
+}
+
+/// The patches of load(), or new ones if the picture had their memory; none where memory is short.
+Status take_patches(Model& model) {
+  if (!keeps_geometry(model)) {
+    model.arena.release(model.after_geometry);
+    model.patches = {};
+    model.statistics.geometry_again = 1;
+    return {};
+  }
+  if (!model.patches.empty()) {
+    model.arena.release(model.after_patches);
+    return {};
+  }
+  model.arena.release(model.after_geometry);
+  const Statistics counted = model.statistics;
+  const Status status = build_patches(model.scene, model.geometry, model.arena, model.patches, model.statistics);
+  model.statistics = counted;
+  return status;
 }
 
 Status light_and_map(Model& model, const Progress& progress) {
@@ -78,14 +127,65 @@ Status light_and_map(Model& model, const Progress& progress) {
   if (!intersector.take_flags(model.arena)) return model.arena.refused();
   Status status = light_directly(model.scene, model.geometry, model.patches, model.options, intersector, progress,
                                  model.arena, model.direct, model.statistics);
+  end_stage(model, MemoryStage::kDirect);
   if (!status.done()) return status;
   status = light_ambiently(model.scene, model.geometry, model.patches, model.direct, intersector, model.options,
                            progress, model.arena, model.ambient, model.statistics);
+  end_stage(model, MemoryStage::kAmbient);
+  if (!status.done()) return status;
+  model.before_maps = model.arena.mark();
+  status = keep_sub_patches(model, intersector, progress);
+  end_stage(model, MemoryStage::kDirect);
   if (!status.done()) return status;
   model.flags = intersector.flags();
   if (!progress.go_on(Stage::kMap, 0, 1)) return interrupted();
-  return map_illuminance(model.scene, model.patches, model.direct, model.ambient, model.options, model.arena,
-                         model.maps);
+  status = map_illuminance(model.scene, model.patches, model.direct, model.ambient, model.options, model.arena,
+                           model.maps);
+  end_stage(model, MemoryStage::kMap);
+  return status;
+}
+
+template <class T>
+void move_down(std::span<T>& block, std::size_t bytes) {
+  // A block of the arena: T stands on a multiple of its size from its start.
+  if (!block.empty()) block = {block.data() - bytes / sizeof(T), block.size()};
+}
+
+/// Leaves only what the picture is made of: patches and all that is by patch go, and the maps take their place.
+void give_up_patches(Model& model) {
+  const bool with_direct = !model.arena.holds(model.direct.sub_patch_lx);
+  const std::size_t by = model.arena.lower(model.before_maps, model.after_geometry);
+  model.before_maps = model.after_geometry;
+  move_down(model.maps.ambient_lx, by);
+  if (with_direct) {
+    move_down(model.direct.sub_patch_lx, by);
+    move_down(model.direct.hidden, by);
+    model.maps.direct_lx = model.direct.sub_patch_lx;
+    model.maps.hidden = model.direct.hidden;
+  }
+  model.patches = {};
+  model.flags = {};
+  model.direct.patch_lx = {};
+  model.direct.visible_area = model.direct.light_form_factor = {};
+  model.ambient = {};
+}
+
+/// The drawn triangles, if the light took their memory, and the picture.
+Status place_and_draw(Model& model, const Progress& progress, const LineSink& sink) {
+  Geometry& geometry = model.geometry;
+  Arena& arena = model.arena;
+  const bool held = arena.holds(geometry.drawn) && geometry.drawn.size() == geometry.drawn_count;
+  arena.pin_spares(arena.spares());
+  const std::uint64_t wanted = held ? model.picture_scratch : drawn_and_picture_bytes(model);
+  if (wanted > arena.left()) give_up_patches(model);
+  const ArenaScratch scratch(arena);
+  if (!held) {
+    if (!place_drawn(model.scene, arena, geometry)) return arena.refused();
+    model.statistics.placed_again = 1;
+  }
+  const Status status = draw_picture(model.scene, geometry, model.maps, model.options, progress, arena, sink);
+  if (!held) geometry.drawn = {};
+  return status;
 }
 
 }  // namespace
@@ -106,22 +206,26 @@ Status load(std::string_view name, std::string_view text, const Reader& reader, 
   const Status status = load_and_place(name, text, reader, *loaded);
   if (!status.done()) return with_model(status, overhead);
   count_scene(*loaded);
-  loaded->load_peak = loaded->arena.peak();
-  loaded->after_load = loaded->arena.mark();
-  loaded->statistics.memory_peak = overhead + loaded->arena.peak();
+  loaded->arena.pin_spares(0);
+  loaded->picture_scratch = picture_bytes(loaded->scene, loaded->geometry, options);
+  loaded->statistics.stage_peak[0] = loaded->statistics.memory_peak = overhead + loaded->arena.peak();
+  loaded->arena.start_stage();
   loaded->loaded = loaded->statistics;
   model = loaded;
   return status;
 }
 
 Status solve(Model& model, const Progress& progress) {
-  model.arena.release(model.after_load);
   model.statistics = model.loaded;
   model.solved = false;
   const std::uint64_t needed = smallest_memory(model, false);
   if (needed > model.memory_bytes) return too_small(needed, model.memory_bytes);
-  const Status status = light_and_map(model, progress);
-  model.statistics.memory_peak = model.overhead + model.arena.peak();
+  model.arena.release_spares(model.loaded_spares);
+  model.arena.pin_spares(0);
+  Status status = take_patches(model);
+  if (!status.done()) return with_model(status, model.overhead);
+  model.arena.start_stage();
+  status = light_and_map(model, progress);
   model.solved = status.done();
   return with_model(status, model.overhead);
 }
@@ -130,18 +234,17 @@ Status draw(Model& model, const Progress& progress, const LineSink& sink) {
   if (!model.solved) return wrong_use("expected a solved model, found one that is only loaded");
   const std::uint64_t needed = smallest_memory(model);
   if (needed > model.memory_bytes) return too_small(needed, model.memory_bytes);
-  const ArenaScratch scratch(model.arena);
   if (!progress.go_on(Stage::kPicture, 0, 1)) return interrupted();
-  const Status status =
-      draw_picture(model.scene, model.geometry, model.maps, model.options, progress, model.arena, sink);
-  model.statistics.memory_peak = model.overhead + model.arena.peak();
+  model.arena.start_stage();
+  const Status status = place_and_draw(model, progress, sink);
+  end_stage(model, MemoryStage::kPicture);
   return with_model(status, model.overhead);
 }
 
 const Statistics& statistics(const Model& model) { return model.statistics; }
 
 std::uint64_t smallest_memory(const Model& model, bool picture) {
-  return model.overhead + plan_memory(model, picture).peak();
+  return plan_memory(model, picture).peak();
 }
 
 const char* stage_name(Stage stage) {

@@ -5,6 +5,10 @@
 
 namespace shodo {
 
+/// The stages as memory sees them: form factors and solution are one.
+enum class MemoryStage : std::uint8_t { kLoad, kDirect, kAmbient, kMap, kPicture };
+inline constexpr std::uint32_t kMemoryStageCount = 5;
+
 struct Statistics {
   std::uint32_t objects = 0;
   std::uint32_t meshes = 0;
@@ -41,6 +45,10 @@ struct Statistics {
   double solution_bound = 0;              // certified, of the largest illuminance
   std::uint64_t memory_budget = 0;        // bytes
   std::uint64_t memory_peak = 0;
+  std::uint64_t stage_peak[kMemoryStageCount] = {};  // bytes, by MemoryStage
+  std::uint32_t lit_again = 0;            // 1: the memory of the sub-patches' direct light was wanted in between
+  std::uint32_t geometry_again = 0;       // 1: patches and blocks were found again at each look
+  std::uint32_t placed_again = 0;         // 1: that of the picture's triangles
 };
 
 }  // namespace shodo

@@ -62,7 +62,8 @@ Status light_ambiently(const Scene& scene, const Geometry& geometry, std::span<c
   matrix.options = &options;
   Solver solver;
   solver.ambient_lx = ambient.patch_lx;
-  Status status = gather_surfaces(scene, geometry, patches, direct, options, arena, matrix.surfaces);
+  Status status = gather_surfaces(scene, geometry, patches, direct, options, arena, matrix.surfaces,
+                                  patches.empty() ? SurfacesKeep::kNothing : SurfacesKeep::kGeometry);
   if (!status.done()) return status;
   if (!take_solver(arena, scene, matrix.surfaces.size(), solver)) return arena.refused();
   if (n == 0) return status;
@@ -77,10 +78,15 @@ std::uint64_t ambient_result_bytes(const Scene& scene) {
   return 8 * std::uint64_t{scene.patch_count} * scene.channels;
 }
 
-std::uint64_t smallest_ambient_bytes(const Scene& scene, const Options& options) {
+std::uint64_t smallest_ambient_bytes(const Scene& scene, const Options& options, SurfacesKeep keep) {
   const std::uint64_t result = ambient_result_bytes(scene);
-  const std::uint64_t before_rows = surfaces_bytes(scene, options) + solver_bytes(scene, options);
+  const std::uint64_t before_rows = surfaces_bytes(scene, options, keep) + solver_bytes(scene, options);
   return result + before_rows + (scene.patch_count > 0 ? matrix_bytes(scene, options) : 0);
+}
+
+std::uint64_t expected_row_bytes(const Scene& scene, const Options& options) {
+  constexpr std::uint64_t kBytesANode = 128;
+  return options.rules.blocks ? kBytesANode * node_count(scene, options.rules) : 0;
 }
 
 }  // namespace shodo

@@ -27,11 +27,11 @@ struct MeshPart {
 };
 
 struct Block {
-  Patch patch;                  // all of it as one patch
   MeshPart part;
   std::uint32_t end = 0;        // the node after its last
   std::uint32_t senders = 0;    // its patches that send: their columns are kept
   std::uint32_t receivers = 0;  // its patches that receive: their rows are kept
+  std::uint32_t thin = 0;       // 1: some of its patches are
   double sending_root = 0;      // visible area of its senders over R: what its row sums count
 };
 

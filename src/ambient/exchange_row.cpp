@@ -67,10 +67,10 @@ void compute_row(const Surfaces& surfaces, const Sparsity& sparsity, LinkWalk& w
                  RowErrors* errors) {
   writer.start(i);
   if (!(surfaces.root_area[i] > 0)) return;
-  RowContext row{surfaces, options, intersector, errors, row_side(surfaces, i), surfaces.root_area[i], {}};
-  for (std::uint32_t k = 0; k < surfaces.cached_points; ++k) {
-    row.box.include(surfaces.samples[std::size_t{i} * surfaces.cached_points + k]);
-  }
+  NodeGeometry own;
+  RowContext row{surfaces, options, intersector, errors, row_side(surfaces, i, own), surfaces.root_area[i], {}};
+  const LatticePoint* const samples = surfaces.samples(i);
+  for (std::uint32_t k = 0; k < surfaces.cached_points; ++k) row.box.include(samples[k]);
   walk.visit(row.side, [&](std::uint32_t j) {
     if (sparsity.generation(i, j) != generation) return;
     while (j >= surfaces.mesh_begin[row.place + 1]) ++row.place;  // nodes ascend

@@ -76,6 +76,15 @@ PairExchange near_pair(const Surfaces& surfaces, const RowSide& i, std::uint32_t
 
 }  // namespace
 
+RowSide row_side(const Surfaces& surfaces, std::uint32_t position, NodeGeometry& own) {
+  RowSide side = row_side(surfaces, position);
+  if (surfaces.keeps_geometry()) return side;
+  own = surfaces.found(position);
+  side.patch = &own.patch;
+  side.shape = &own.shape;
+  return side;
+}
+
 RowSide row_side(const Surfaces& surfaces, std::uint32_t position) {
   RowSide side;
   side.position = position;

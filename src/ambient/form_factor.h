@@ -34,7 +34,10 @@ struct RowSide {
   double own[4];      // their heights over the mean plane; 0 of a planar patch
 };
 
+/// Good while few other nodes are looked at (ambient/surfaces.h).
 RowSide row_side(const Surfaces& surfaces, std::uint32_t position);
+/// Good as long as `own`, which gets the geometry where the surfaces don't keep it.
+RowSide row_side(const Surfaces& surfaces, std::uint32_t position, NodeGeometry& own);
 
 struct PairExchange {
   double geometric = 0;   // G, scene units squared

@@ -59,7 +59,7 @@ bool LinkWalk::out_of_sight(const RowSide& side, std::uint32_t k) const {
   }
   if (all_behind) return true;
   if (surfaces.planar[k] == 0) return false;
-  const Vec3& normal = surfaces.patches[mesh.first_patch].normal;
+  const Vec3 normal = surfaces.patch(surfaces.mesh_begin[k]).normal;
   const double height = dot(normal, side.patch->centre - vertex[0]);
   return height + extent_along(*side.shape, side.patch->longest_side, normal).high <= surfaces.flat;
 }
@@ -82,7 +82,8 @@ void LinkWalk::go_to(std::uint32_t a) {
   for (;;) {
     while (surfaces_->end(node) <= a) node = surfaces_->end(node);
     if (node == a) return;
-    expand(row_side(*surfaces_, node), [](std::uint32_t) {});
+    NodeGeometry own;
+    expand(row_side(*surfaces_, node, own), [](std::uint32_t) {});
     ++node;
   }
 }

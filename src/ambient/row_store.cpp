@@ -57,7 +57,8 @@ bool RowStore::keep(std::span<const std::uint16_t> row) {
     return false;
   }
   std::span<std::uint16_t> block;
-  if (!arena_->take("rows", words, block)) return false;
+  full_ = !arena_->take("rows", words, block);
+  if (full_) return false;
   for (std::size_t k = 0; k < row.size(); ++k) block[k] = row[k];
   if (rows_ == 0) first_ = block.data();
   ++rows_;

@@ -9,6 +9,10 @@
 // as one large patch: it has a centre, a normal, an area, a shape and samples. Without blocks a node is a patch.
 // Bytes: 16 + 12 P a node (P samples, 1 or 4) + 96 a shape + 9 a mesh (33 with flags) + 136 a block, which has a
 // shape of its own.
+//
+// With little memory the *geometry* of nodes (patch, shape, samples) isn't kept: it is found again, to the same bits,
+// when it is asked for, and the last kFoundNodes that were stay at hand. A reference to a node's geometry is then good
+// until so many others have been looked at. Bytes: 12 a node + 40 a block + 9 or 33 a mesh + 3,712.
 #pragma once
 
 #include <cstdint>
@@ -25,10 +29,27 @@
 
 namespace shodo {
 
+/// Where a node lies and how it looks.
+struct NodeGeometry {
+  Patch patch;
+  PatchShape shape;
+  LatticePoint samples[4];  // points of Surfaces::cached_set
+};
+
+inline constexpr std::uint32_t kFoundNodes = 16;
+
+/// A node's geometry that was found again.
+struct FoundNode {
+  NodeGeometry geometry;
+  std::uint32_t position = kNone;
+  std::uint64_t used = 0;  // the later, the larger
+};
+static_assert(sizeof(FoundNode) == 232, "memory_plan.cpp");
+
 struct Surfaces {
   const Scene* scene = nullptr;
   const Geometry* geometry = nullptr;
-  std::span<const Patch> patches;
+  std::span<const Patch> patches;        // none: found again too
 
   std::span<std::uint32_t> mesh_at;      // order of meshes
   std::span<std::uint32_t> mesh_begin;   // first position of mesh_at[k]; one more at the end
@@ -37,24 +58,37 @@ struct Surfaces {
   std::span<Block> blocks;               // by their order
   std::span<std::uint32_t> shape_at;     // position -> shape
   std::span<PatchShape> shapes;
-  std::span<LatticePoint> samples;       // [position * cached_points + k]: points of cached_set
+  std::span<Patch> block_patches;        // by their order: all of a block as one patch
+  std::span<LatticePoint> kept_samples;  // [position * cached_points + k]: points of cached_set
+  std::span<FoundNode> found_nodes;      // none: shapes, block_patches and kept_samples hold all geometry
   SampleSet cached_set = SampleSet::kGauss;  // kCentre for one segment a pair
   std::uint32_t cached_points = 4;       // 1 or 4
   std::span<LatticeBox> mesh_box;        // of mesh_at[k]: around its samples; none with flags off
   std::span<double> root_area;           // sqrt R of the area that isn't hidden; 0: takes no part
+  std::uint32_t gathered = 0;            // of mesh_at: how many are there
   double flat = 0;                       // heights below it are rounding, scene units
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(patch_at.size()); }
-  bool is_block(std::uint32_t position) const { return patch_at[position] >= patches.size(); }
-  const Block& block(std::uint32_t position) const { return blocks[patch_at[position] - patches.size()]; }
-  Block& block(std::uint32_t position) { return blocks[patch_at[position] - patches.size()]; }
+  bool is_block(std::uint32_t position) const { return patch_at[position] >= scene->patch_count; }
+  const Block& block(std::uint32_t position) const { return blocks[patch_at[position] - scene->patch_count]; }
+  Block& block(std::uint32_t position) { return blocks[patch_at[position] - scene->patch_count]; }
   /// The node after the last that is part of this one.
   std::uint32_t end(std::uint32_t position) const { return is_block(position) ? block(position).end : position + 1; }
+  bool keeps_geometry() const { return found_nodes.empty(); }
   const Patch& patch(std::uint32_t position) const {
-    return is_block(position) ? block(position).patch : patches[patch_at[position]];
+    if (!keeps_geometry()) return found(position).patch;
+    return is_block(position) ? block_patches[patch_at[position] - scene->patch_count] : patches[patch_at[position]];
   }
-  const PatchShape& shape(std::uint32_t position) const { return shapes[shape_at[position]]; }
-  const Mesh& mesh(std::uint32_t position) const { return scene->meshes[patch(position).mesh]; }
+  const PatchShape& shape(std::uint32_t position) const {
+    return keeps_geometry() ? shapes[shape_at[position]] : found(position).shape;
+  }
+  /// cached_points of them.
+  const LatticePoint* samples(std::uint32_t position) const {
+    return keeps_geometry() ? &kept_samples[std::size_t{position} * cached_points] : found(position).samples;
+  }
+  /// Of the scene.
+  std::uint32_t mesh_index(std::uint32_t position) const;
+  const Mesh& mesh(std::uint32_t position) const { return scene->meshes[mesh_index(position)]; }
   /// Of a patch, counted from its mesh's first.
   std::uint32_t local(std::uint32_t position) const { return patch_at[position] - mesh(position).first_patch; }
   Piece piece(std::uint32_t position) const {
@@ -64,14 +98,21 @@ struct Surfaces {
   /// The share of a node in the flux of the block that holds it.
   double share(std::uint32_t child, std::uint32_t parent) const { return root_area[child] / root_area[parent]; }
   bool triangular(std::uint32_t position) const { return shape(position).outline == Outline::kTriangle; }
+
+  /// Whatever is kept, found again.
+  const NodeGeometry& found(std::uint32_t position) const;
 };
 
-/// Errors: kMemory.
+/// Whether nodes' geometry stays in the arena.
+enum class SurfacesKeep : std::uint8_t { kGeometry, kNothing };
+
+/// `patches` may be empty with kNothing. Errors: kMemory.
 Status gather_surfaces(const Scene& scene, const Geometry& geometry, std::span<const Patch> patches,
-                       const DirectLight& direct, const Options& options, Arena& arena, Surfaces& surfaces);
+                       const DirectLight& direct, const Options& options, Arena& arena, Surfaces& surfaces,
+                       SurfacesKeep keep = SurfacesKeep::kGeometry);
 
 /// Arena bytes of gather_surfaces.
-std::uint64_t surfaces_bytes(const Scene& scene, const Options& options);
+std::uint64_t surfaces_bytes(const Scene& scene, const Options& options, SurfacesKeep keep);
 
 /// Sample (x, y) of a patch in scene coordinates; of a thin one (narrower than 32 lattice steps) only the middle half
 /// is used (design: exact visibility).

@@ -85,10 +85,8 @@ PatchEnds ends_of(const Surfaces& surfaces, std::uint32_t position, SampleSet se
 PairEnds place_ends(const Surfaces& surfaces, std::uint32_t i, std::uint32_t j, const SegmentSets& sets,
                     DenseSamples& at_i, DenseSamples& at_j) {
   if (sets.few == surfaces.cached_set) {
-    const LatticePoint* cached = surfaces.samples.data();
-    const std::size_t stride = surfaces.cached_points;
-    const PatchEnds ends_i = ends_of(surfaces, i, sets.few, cached + i * stride);
-    return {ends_i, ends_of(surfaces, j, sets.few, cached + j * stride), {}, {}};
+    const PatchEnds ends_i = ends_of(surfaces, i, sets.few, surfaces.samples(i));
+    return {ends_i, ends_of(surfaces, j, sets.few, surfaces.samples(j)), {}, {}};
   }
   for (DenseSamples* at : {&at_i, &at_j}) {
     if (at->placed) continue;

@@ -65,18 +65,35 @@ std::string model_text(const Model& model) {
   return text;
 }
 
+std::string right(const std::string& text, std::size_t width) {
+  return std::string(text.size() < width ? width - text.size() : 0, ' ') + text;
+}
+
+/// One line a part: bytes, the stages that hold it, name, formula.
+std::string plan_text(const MemoryPlan& plan) {
+  std::string text = "           of which, with n patches, s sub-patches and c channels:\n";
+  for (std::size_t p = 0; p < plan.parts; ++p) {
+    const PlannedPart& part = plan.part[p];
+    std::string stages;
+    for (std::size_t k = 0; k < kPlanStages; ++k) {
+      stages += plan.stage[k] != 0 && part.in(k) ? static_cast<char>('1' + k) : ' ';
+    }
+    text += "           " + right(grouped(part.bytes), 11) + "  " + stages + "  " + part.name + ": " + part.formula + "\n";
+  }
+  return text;
+}
+
 std::string memory_text(const Model& model, const Options& options, std::uint64_t budget) {
   const bool draws = !model.scene.cameras.empty();
   const MemoryPlan plan = plan_memory(model, draws);
-  std::string text =
-      "memory:    " + count(smallest_memory(model, draws), "byte", "bytes") + " are the smallest budget that works";
-  text += smallest_memory(model, draws) > budget ? "; --memory " + size_text(budget) + " is too small\n" : "\n";
-  const std::uint64_t stages[] = {plan.load, plan.direct, plan.ambient, plan.map, plan.picture};
-  const char* const names[] = {"load", "direct", "ambient", "map", "picture"};
-  for (std::size_t k = 0; k < 5; ++k) {
-    if (stages[k] != 0)
-      text += "           " + grouped(model.overhead + stages[k]) + " at the most in stage " + names[k] + "\n";
+  std::string text = "memory:    " + count(plan.peak(), "byte", "bytes") + " are the smallest budget that works";
+  text += plan.peak() > budget ? "; --memory " + size_text(budget) + " is too small\n" : "\n";
+  for (std::size_t k = 0; k < kPlanStages; ++k) {
+    if (plan.stage[k] == 0) continue;
+    text += "           " + right(grouped(plan.stage[k]), 11) + " in stage " + std::to_string(k + 1) + ", ";
+    text += plan_stage_name(static_cast<PlanStage>(k)) + std::string("\n");
   }
+  text += plan_text(plan);
   if (draws) {
     text += "           a PNG of " + std::to_string(options.width) + " x " + std::to_string(options.height) +
             " takes up to ";
@@ -88,7 +105,7 @@ std::string memory_text(const Model& model, const Options& options, std::uint64_
 std::string warnings_text(const Model& model) {
   const Statistics& s = model.statistics;
   std::string text;
-  if (std::uint64_t{100} * s.patches_thin > model.patches.size()) {
+  if (std::uint64_t{100} * s.patches_thin > model.scene.patch_count) {
     text += "warning:   " + count(s.patches_thin, "patch is", "patches are") +
             " under 32 lattice steps wide, more than 1 % of them\n";
   }

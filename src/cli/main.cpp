@@ -54,11 +54,11 @@ int run(int count, char** words) {
 }  // namespace
 
 int main(int count, char** words) {
+  shodo::listen_for_interrupts();
   hold_standard_descriptors();
   // Writing then fails, and is reported, instead of ending the program in the middle.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  shodo::listen_for_interrupts();
   try {
     return run(count, words);
   } catch (const std::bad_alloc&) {

@@ -65,14 +65,6 @@ int empty_folder(const std::string& path) {
   return found;
 }
 
-void remove_folder(const std::string& path) {
-  if (DIR* folder = opendir(path.c_str())) {
-    while (const dirent* entry = readdir(folder)) unlinkat(dirfd(folder), entry->d_name, 0);
-    closedir(folder);
-  }
-  rmdir(path.c_str());
-}
-
 }  // namespace
 
 bool FileError::set(const std::string& name, int error) {
@@ -117,7 +109,7 @@ bool OutputFile::open(FileError& error) {
   std::string pattern = pattern_beside(target_);
   descriptor_ = mkostemp(pattern.data(), O_CLOEXEC);
   if (descriptor_ < 0) return error.set(name_, errno);
-  temporary_ = pattern;
+  temporary_ = std::move(pattern);
   const mode_t mode = exists ? found.st_mode & 07777 : usual_mode(0666);
   return fchmod(descriptor_, mode) == 0 || error.set(name_, errno);
 }
@@ -149,14 +141,20 @@ bool OutputFile::commit(FileError& error) {
   return true;
 }
 
-OutputFolder::~OutputFolder() {
-  if (!temporary_.empty()) remove_folder(temporary_);
+OutputFolder::~OutputFolder() { drop(); }
+
+/// Takes no memory: it may be what there is none of.
+void OutputFolder::drop() {
+  if (temporary_.empty()) return;
+  for (const std::string& path : files_) unlink(path.c_str());
+  rmdir(temporary_.c_str());
+  files_.clear();
+  temporary_.clear();
 }
 
 bool OutputFolder::probe(FileError& error) {
   const bool works = open(error);
-  if (!temporary_.empty()) remove_folder(temporary_);
-  temporary_.clear();
+  drop();
   return works;
 }
 
@@ -174,13 +172,14 @@ bool OutputFolder::open(FileError& error) {
   }
   std::string pattern = pattern_beside(target_);
   if (mkdtemp(pattern.data()) == nullptr) return error.set(name_, errno);
-  temporary_ = pattern;
+  temporary_ = std::move(pattern);
   return chmod(temporary_.c_str(), usual_mode(0777)) == 0 || error.set(name_, errno);
 }
 
 bool OutputFolder::write_file(const std::string& name, std::string_view bytes, FileError& error) {
-  const std::string path = temporary_ + "/" + name;
   const std::string shown = name_ + "/" + name;
+  files_.push_back(temporary_ + "/" + name);
+  const std::string& path = files_.back();
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) return error.set(shown, errno);
   const bool written = write_all(descriptor, bytes);

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace shodo {
 
@@ -62,9 +63,12 @@ class OutputFolder {
   bool commit(FileError& error);
 
  private:
+  void drop();
+
   std::string name_;
   std::string target_;
   std::string temporary_;
+  std::vector<std::string> files_;  // their paths
 };
 
 }  // namespace shodo

@@ -1,4 +1,61 @@
+// stb_image_write takes memory as C does and doesn't look whether it got any. So its blocks are counted here: one that
+// the system refuses is an exception, and what stb still holds then is given back.
 #include "cli/png.h"
+
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+namespace shodo {
+
+namespace {
+
+/// Blocks that stb holds, in a ring.
+struct alignas(16) Held {
+  Held* before = this;
+  Held* after = this;
+};
+thread_local Held t_held;  // stb's macros have no context
+
+void* hold(Held* block) {
+  if (block == nullptr) throw std::bad_alloc();
+  *block = {t_held.before, &t_held};
+  t_held.before->after = block;
+  t_held.before = block;
+  return block + 1;
+}
+
+void let_go(Held* block) {
+  block->before->after = block->after;
+  block->after->before = block->before;
+}
+
+void* take(std::size_t size) { return hold(static_cast<Held*>(std::malloc(sizeof(Held) + size))); }
+
+void give_back(void* memory) {
+  if (memory == nullptr) return;
+  Held* const block = static_cast<Held*>(memory) - 1;
+  let_go(block);
+  std::free(block);
+}
+
+void* take_more(void* memory, std::size_t old_size, std::size_t size) {
+  void* const larger = take(size);
+  if (memory != nullptr) std::memcpy(larger, memory, old_size < size ? old_size : size);
+  give_back(memory);
+  return larger;
+}
+
+/// After stb has returned, or not.
+struct GiveAllBack {
+  ~GiveAllBack() {
+    while (t_held.after != &t_held) give_back(t_held.after + 1);
+  }
+};
+
+}  // namespace
+
+}  // namespace shodo
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -8,6 +65,9 @@
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STBI_WRITE_NO_STDIO
+#define STBIW_MALLOC(size) ::shodo::take(size)
+#define STBIW_REALLOC_SIZED(memory, old_size, size) ::shodo::take_more(memory, old_size, size)
+#define STBIW_FREE(memory) ::shodo::give_back(memory)
 #include <stb/stb_image_write.h>
 #pragma GCC diagnostic pop
 
@@ -30,6 +90,7 @@ void receive(void* receiver, void* data, int size) {
 bool encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgb,
                 void (*write)(void* context, std::string_view bytes), void* context) {
   Receiver receiver{write, context};
+  const GiveAllBack rest;
   const int w = static_cast<int>(width), h = static_cast<int>(height);
   return stbi_write_png_to_func(receive, &receiver, w, h, 3, rgb.data(), 3 * w) != 0;
 }

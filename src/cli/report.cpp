@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/output.h"
+#include "cli/report_memory.h"
 #include "cli/report_results.h"
 #include "cli/run.h"
 
@@ -28,11 +29,11 @@ std::string name_of(const std::string& scene, const std::vector<std::string>& sc
   return std::count_if(scenes.begin(), scenes.end(), same) > 1 ? scene : stem(scene);
 }
 
-/// workstation.json beside the report; empty if there is none.
-std::string workstation_file(std::string folder) {
+/// A file beside the report; empty if there is none.
+std::string file_beside(std::string folder, const std::string& name) {
   while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
   const std::size_t slash = folder.rfind('/');
-  SceneFiles file((slash == std::string::npos ? "" : folder.substr(0, slash + 1)) + "workstation.json");
+  SceneFiles file((slash == std::string::npos ? "" : folder.substr(0, slash + 1)) + name);
   std::string_view text;
   FileError error;
   return file.read_top(text, error) ? std::string(text) : "";
@@ -114,15 +115,16 @@ int report(const Arguments& arguments) {
     jobs.push_back(jobs_of(arguments, scene, cases));
   }
   if (const Status status = run_all(jobs, run.watch().shown()); !status.done()) return run.tell(status);
-  const std::string json = workstation_file(arguments.output);
+  const std::string json = file_beside(arguments.output, "workstation.json");
   std::vector<SceneResults> results;
   for (std::size_t s = 0; s < jobs.size(); ++s) {
     results.push_back(evaluate(name_of(arguments.scenes[s], arguments.scenes), cases, jobs[s]));
     results.back().workstation = workstation_seconds(json, stem(arguments.scenes[s]));
   }
-  const Document document = report_document(results, workstation_options(json));
+  Document document = report_document(results, workstation_options(json));
+  add_memory_chapter(document, memory_costs(file_beside(arguments.output, "memory-cost.csv")));
   if (!write_report(document, folder, error)) return run.tell(error);
-  if (interrupt_asked()) return static_cast<int>(StatusCode::kInterrupted);
+  if (const int status = run.tell_interrupt(); status != 0) return status;
   return folder.commit(error) ? 0 : run.tell(error);
 }
 

@@ -149,11 +149,15 @@ PatchLight copy_patches(const Model& model) {
   copy.max_cd_m2 = model.scene.display.max_cd_m2;
   copy.direct.assign(model.direct.patch_lx.begin(), model.direct.patch_lx.end());
   copy.ambient.assign(model.ambient.patch_lx.begin(), model.ambient.patch_lx.end());
-  for (std::size_t i = 0; i < model.patches.size(); ++i) {
-    const Patch& patch = model.patches[i];
-    copy.area.push_back(patch.dropped != 0 ? 0 : patch.area * static_cast<double>(model.direct.visible_area[i]));
-    const Rgb& rho = model.scene.materials[model.scene.meshes[patch.mesh].material].diffuse;
-    for (std::uint32_t c = 0; c < copy.channels; ++c) copy.reflectance.push_back(rho.c[c]);
+  for (std::uint32_t m = 0; m < model.scene.meshes.size(); ++m) {
+    const Mesh& mesh = model.scene.meshes[m];
+    const Rgb& rho = model.scene.materials[mesh.material].diffuse;
+    for (std::uint32_t local = 0; local < mesh.patch_count(); ++local) {
+      const Patch patch = make_patch(model.scene, model.geometry, m, local);
+      const double visible = static_cast<double>(model.direct.visible_area[mesh.first_patch + local]);
+      copy.area.push_back(patch.dropped != 0 ? 0 : patch.area * visible);
+      for (std::uint32_t c = 0; c < copy.channels; ++c) copy.reflectance.push_back(rho.c[c]);
+    }
   }
   return copy;
 }

@@ -121,13 +121,15 @@ MapCopy copy_maps(const Model& model) {
   copy.channels = scene.channels;
   copy.direct.assign(model.maps.direct_lx.begin(), model.maps.direct_lx.end());
   copy.ambient.assign(model.maps.ambient_lx.begin(), model.maps.ambient_lx.end());
-  for (const Mesh& mesh : scene.meshes) {
+  for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
+    const Mesh& mesh = scene.meshes[m];
     copy.meshes.push_back({mesh.kind, mesh.map_width(), mesh.map_height(), mesh.first_sub_patch,
                            std::string(scene.objects[mesh.object].name)});
     for (std::uint32_t local = 0; local < mesh.sub_patch_count(); ++local) {
       const std::size_t at = mesh.first_sub_patch + std::size_t{local};
       const bool hidden = !model.maps.hidden.empty() && model.maps.hidden[at] != 0;
-      const bool dropped = model.patches[mesh.first_patch + patch_of_sub_patch(mesh, local)].dropped != 0;
+      const std::uint32_t patch = patch_of_sub_patch(mesh, local);
+      const bool dropped = make_patch(scene, model.geometry, m, patch).dropped != 0;
       copy.area.push_back(hidden || dropped ? 0 : length(sub_patch_piece(scene, mesh, local).vector_area()));
     }
   }

@@ -132,12 +132,12 @@ Status run_job(ReportJob& job, const Progress& progress) {
   if (!status.done()) return status;
   status = solve(scene.model(), progress);
   if (!status.done()) return status;
+  job.maps = copy_maps(scene.model());
+  job.patches = copy_patches(scene.model());
   job.picture.reserve(std::size_t{3} * job.options.width * job.options.height);
   status = draw(scene.model(), progress, sink_of(job.picture));
   if (!status.done()) return status;
   job.statistics = statistics(scene.model());
-  job.maps = copy_maps(scene.model());
-  job.patches = copy_patches(scene.model());
   return status;
 }
 

@@ -38,7 +38,7 @@ Status Run::load_into(std::size_t bytes) {
   memory_.emplace(bytes);
   if (memory_->start() == nullptr) {
     Status status;
-    status.code = StatusCode::kMemory;
+    status.code = StatusCode::kFile;
     std::snprintf(status.message, sizeof status.message, "the system refuses %s of memory", size_text(bytes).c_str());
     return status;
   }
@@ -48,7 +48,6 @@ Status Run::load_into(std::size_t bytes) {
 int Run::load_in_budget() {
   if (const int status = read_scene(); status != 0) return status;
   const Status status = load_into(arguments_.memory);
-  if (memory_->start() == nullptr) return tell(status);
   if (status.code == StatusCode::kMemory) {
     if (const int other = load_at_any_size(); other != 0) return other;
     return refuse_budget(smallest_memory(*model_, draws_));
@@ -56,7 +55,7 @@ int Run::load_in_budget() {
   if (!status.done()) return tell(status);
   const std::uint64_t needed = smallest_memory(*model_, draws_);
   if (needed > arguments_.memory) return refuse_budget(needed);
-  return interrupt_asked() ? 130 : 0;
+  return tell_interrupt();
 }
 
 int Run::load_at_any_size() {
@@ -66,7 +65,7 @@ int Run::load_at_any_size() {
   const std::size_t most = std::max<std::size_t>(largest_trial(), arguments_.memory);
   for (std::size_t bytes = std::min<std::size_t>(8 << 20, most);;) {
     Status status = load_into(bytes);
-    if (status.done()) return interrupt_asked() ? 130 : 0;
+    if (status.done()) return tell_interrupt();
     if (status.code != StatusCode::kMemory || bytes == most) return tell(status);
     bytes = std::min(most, std::max<std::size_t>(2 * bytes, status.bytes_needed));
   }
@@ -122,6 +121,13 @@ int Run::tell(const Status& status) {
     std::fprintf(stderr, "%s:%u:%u: %s\n", status.file, status.line, status.column, status.message);
   }
   return static_cast<int>(status.code);
+}
+
+int Run::tell_interrupt() {
+  if (!interrupt_asked()) return 0;
+  Status status;
+  status.code = StatusCode::kInterrupted;
+  return tell(status);
 }
 
 int Run::tell(const FileError& error) {

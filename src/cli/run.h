@@ -37,6 +37,8 @@ class Run {
   /// Says what went wrong; the exit status.
   int tell(const Status& status);
   int tell(const FileError& error);
+  /// 0 if the user didn't ask to stop.
+  int tell_interrupt();
   /// A line on standard error, unless --quiet.
   void warn(const std::string& text);
   /// What the program did otherwise than the scene says: dropped, moved.

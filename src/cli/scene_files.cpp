@@ -11,16 +11,28 @@ namespace {
 
 constexpr std::size_t kLargestFile = std::size_t{256} << 20;
 
+/// Open for reading, and closed whatever happens.
+struct InputFile {
+  explicit InputFile(const std::string& path) : descriptor(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+  ~InputFile() {
+    if (descriptor >= 0) close(descriptor);
+  }
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  const int descriptor;
+};
+
 /// 0, or an errno.
 int read_whole(const std::string& path, std::string& text) {
-  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return errno;
+  const InputFile file(path);
+  if (file.descriptor < 0) return errno;
   int error = 0;
   for (;;) {
-    constexpr std::size_t kStep = 256 * 1024;
+    constexpr std::size_t kStep = 16 * 1024;
     const std::size_t size = text.size();
     text.resize(size + kStep);
-    const ssize_t got = ::read(descriptor, text.data() + size, kStep);
+    const ssize_t got = ::read(file.descriptor, text.data() + size, kStep);
     if (got < 0) error = errno;
     text.resize(size + (got > 0 ? static_cast<std::size_t>(got) : 0));
     if (got < 0 && error == EINTR) {
@@ -30,7 +42,6 @@ int read_whole(const std::string& path, std::string& text) {
     if (text.size() > kLargestFile) error = EFBIG;
     if (got <= 0 || error != 0) break;
   }
-  close(descriptor);
   return error;
 }
 

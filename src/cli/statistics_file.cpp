@@ -136,7 +136,10 @@ std::string statistics_json(const Model& model, const std::string& scene, const 
   json.add("columns_restored", s.columns_restored).add("rounds", s.rule2_rounds).add("loss_bound_lx", s.rule2_bound_lx).close();
   json.open("rows").add("scaled", s.rows_scaled).add("kept", s.rows_kept).add("recomputed", s.rows_recomputed).close();
   json.open("solution").add("sweeps", s.sweeps).add("bound", s.solution_bound).close();
-  json.open("memory").add("budget", s.memory_budget).add("peak", s.memory_peak).close();
+  json.open("memory").add("budget", s.memory_budget).add("peak", s.memory_peak);
+  const char* const stages[kMemoryStageCount] = {"load", "direct", "ambient", "map", "picture"};
+  for (std::uint32_t k = 0; k < kMemoryStageCount; ++k) json.add(stages[k], s.stage_peak[k]);
+  json.add("lit_again", s.lit_again).add("geometry_again", s.geometry_again).add("placed_again", s.placed_again).close();
   json.open("seconds");
   for (std::uint32_t k = 0; k < kStageCount; ++k) {
     const Stage stage = static_cast<Stage>(k);

@@ -52,7 +52,9 @@ bool write_table(const Model& model, OutputFile& file, FileError& error) {
     const Mesh& mesh = model.scene.meshes[m];
     const std::string columns = std::string(model.scene.objects[mesh.object].name) + "," + std::to_string(m);
     for (std::uint32_t local = 0; local < mesh.sub_patch_count(); ++local) {
-      if (model.patches[mesh.first_patch + patch_of_sub_patch(mesh, local)].dropped != 0) continue;
+      // Drawing may have taken the memory of the patches.
+      const std::uint32_t patch = patch_of_sub_patch(mesh, local);
+      if (make_patch(model.scene, model.geometry, m, patch).dropped != 0) continue;
       if (!file.write(table_line(model, columns, mesh, local), error)) return false;
     }
   }

@@ -2,7 +2,8 @@
 //
 // Patches ascending, within a patch its sub-patches ascending, within a sub-patch the lights as the file has them: sums
 // are doubles in this order. E0 of a patch is the area-weighted mean over its sub-patches that are not hidden
-// (deviation D4). Bytes left: 4 channels + 1 a sub-patch, 8 channels + 8 a patch; scratch as light/sources.h says.
+// (deviation D4). Bytes left: 4 channels + 1 a sub-patch, 8 channels + 8 a patch; scratch as light/sources.h says. The
+// ambient stage wants the patches only, so sub-patches lie in spare blocks; if it takes those they are lit once more.
 #include "light/direct.h"
 
 #include "light/receiver.h"
@@ -158,13 +159,13 @@ void DirectStage::light_one(std::uint32_t m, std::uint32_t cell, std::uint32_t l
   const SubPatchLight light = light_sub_patch(sources_, receiver, piece, is_thin(geometry_, piece));
   const std::uint32_t index = mesh.first_sub_patch + local;
   if (light.hidden) {
-    direct_.hidden[index] = 1;
+    if (!direct_.hidden.empty()) direct_.hidden[index] = 1;
     return;
   }
   sums.visible_area += area;
   for (std::uint32_t c = 0; c < scene_.channels; ++c) {
     const double lux = finite(light.lux[c]);
-    direct_.sub_patch_lx[index * scene_.channels + c] = static_cast<float>(lux);
+    if (!direct_.sub_patch_lx.empty()) direct_.sub_patch_lx[index * scene_.channels + c] = static_cast<float>(lux);
     sums.lux[c] += area * lux;
   }
   sums.light_factor += area * light.light_factor;
@@ -179,33 +180,52 @@ void DirectStage::store(std::uint32_t patch, const PatchSums& sums) {
   direct_.light_form_factor[patch] = static_cast<float>(sums.light_factor / sums.visible_area);
 }
 
-Status take_results(const Scene& scene, Arena& arena, DirectLight& direct) {
-  const std::size_t sub_patches = scene.sub_patch_count, patches = scene.patch_count;
-  const bool fits = arena.take("direct illuminance", sub_patches * scene.channels, direct.sub_patch_lx) &&
-                    arena.take("hidden sub-patches", sub_patches, direct.hidden) &&
-                    arena.take("direct illuminance of patches", patches * scene.channels, direct.patch_lx) &&
-                    arena.take("visible areas", patches, direct.visible_area) &&
-                    arena.take("form factors to lights", patches, direct.light_form_factor);
-  return fits ? Status{} : arena.refused();
+bool take_patches(const Scene& scene, Arena& arena, DirectLight& direct) {
+  const std::size_t patches = scene.patch_count;
+  return arena.take("direct illuminance of patches", patches * scene.channels, direct.patch_lx) &&
+         arena.take("visible areas", patches, direct.visible_area) &&
+         arena.take("form factors to lights", patches, direct.light_form_factor);
 }
+
+bool take_sub_patches(const Scene& scene, Arena& arena, DirectLight& direct) {
+  return arena.take("direct illuminance", std::size_t{scene.sub_patch_count} * scene.channels, direct.sub_patch_lx) &&
+         arena.take("hidden sub-patches", scene.sub_patch_count, direct.hidden);
+}
+
+/// Both or none.
+void take_spare_sub_patches(const Scene& scene, Arena& arena, DirectLight& direct) {
+  const std::uint32_t before = arena.spares();
+  const std::size_t values = std::size_t{scene.sub_patch_count} * scene.channels;
+  if (arena.take_spare("direct illuminance", values, direct.sub_patch_lx) &&
+      arena.take_spare("hidden sub-patches", scene.sub_patch_count, direct.hidden)) {
+    return;
+  }
+  arena.release_spares(before);
+  direct.sub_patch_lx = {};
+  direct.hidden = {};
+}
+
+constexpr std::uint64_t block(std::uint64_t bytes) { return (bytes + 7) / 8 * 8; }
 
 }  // namespace
 
 Status light_directly(const Scene& scene, const Geometry& geometry, std::span<const Patch> patches,
                       const Options& options, Intersector& intersector, const Progress& progress, Arena& arena,
-                      DirectLight& direct, Statistics& statistics) {
-  Status status = take_results(scene, arena, direct);
-  if (!status.done()) return status;
+                      DirectLight& direct, Statistics& statistics, DirectKeeps keeps) {
+  const bool first = keeps == DirectKeeps::kPatches;
+  if (!(first ? take_patches(scene, arena, direct) : take_sub_patches(scene, arena, direct))) return arena.refused();
   const ArenaScratch scratch(arena);
   const IntersectorScratch seeking(intersector);
   if (!intersector.start(arena)) return arena.refused();
   Sources sources(scene, geometry, intersector, options.tiers);
-  status = sources.prepare(arena);
+  const Status status = sources.prepare(arena);
   if (!status.done()) return status;
+  if (first) take_spare_sub_patches(scene, arena, direct);
   DirectStage stage(scene, geometry, sources, direct);
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
     for (std::uint32_t local = 0; local < scene.meshes[m].patch_count(); ++local) {
-      if (patches[scene.meshes[m].first_patch + local].dropped != 0) continue;
+      const std::uint32_t patch = scene.meshes[m].first_patch + local;
+      if ((patches.empty() ? make_patch(scene, geometry, m, local) : patches[patch]).dropped != 0) continue;
       if (!stage.light_patch(m, local, progress)) return interrupted();
     }
   }
@@ -213,6 +233,16 @@ Status light_directly(const Scene& scene, const Geometry& geometry, std::span<co
   statistics.segments_direct = intersector.segments(LightSet::kDirect);
   statistics.tests_direct = intersector.tests(LightSet::kDirect);
   return {};
+}
+
+std::uint64_t direct_patch_bytes(const Scene& scene) {
+  const std::uint64_t n = scene.patch_count;
+  return block(8 * n * scene.channels) + 2 * block(4 * n);
+}
+
+std::uint64_t direct_sub_patch_bytes(const Scene& scene) {
+  const std::uint64_t s = scene.sub_patch_count;
+  return block(4 * s * scene.channels) + block(s);
 }
 
 }  // namespace shodo

@@ -24,9 +24,19 @@ struct DirectLight {
       light_form_factor;  // per patch: the part of its cosine-weighted hemisphere that area lights and openings fill
 };
 
-/// Errors: kMemory, kInterrupted.
+/// What stays of a run: 8 c + 8 a patch, c channels, and 4 c + 1 a sub-patch.
+enum class DirectKeeps : std::uint8_t {
+  kPatches,     // and sub-patches in spare blocks, as far as the arena holds them: see `sub_patch_lx`
+  kSubPatches,  // once more, after kPatches and with the same answers: patches' values are there
+};
+
+/// `patches` may be empty: then each is found again. Errors: kMemory, kInterrupted.
 Status light_directly(const Scene& scene, const Geometry& geometry, std::span<const Patch> patches,
                       const Options& options, Intersector& intersector, const Progress& progress, Arena& arena,
-                      DirectLight& direct, Statistics& statistics);
+                      DirectLight& direct, Statistics& statistics, DirectKeeps keeps = DirectKeeps::kPatches);
+
+/// Arena bytes of what stays of the patches, and of the sub-patches.
+std::uint64_t direct_patch_bytes(const Scene& scene);
+std::uint64_t direct_sub_patch_bytes(const Scene& scene);
 
 }  // namespace shodo

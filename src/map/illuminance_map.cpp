@@ -171,7 +171,8 @@ void spread_mesh(const MeshMap& map, std::span<const Patch> patches, const Direc
     for (std::uint32_t p = 0; p < mesh.patch_count(); ++p) {
       const std::size_t at = std::size_t{mesh.first_patch} + p;
       const bool visible = direct.visible_area.empty() || direct.visible_area[at] > 0;
-      scratch.known[p] = patches[at].dropped == 0 && visible ? 1 : 0;
+      const bool dropped = !patches.empty() && patches[at].dropped != 0;
+      scratch.known[p] = !dropped && visible ? 1 : 0;
       scratch.patch[p] = scratch.known[p] != 0 ? map.patch_lx(p, c) : 0;
     }
     if (!fill_unknown(mesh, scratch)) return;

@@ -27,7 +27,8 @@ struct IlluminanceMaps {
 };
 
 /// Spreads the patches' ambient illuminance over their sub-patches: continuous over a mesh, each patch's mean kept.
-/// With options.interpolate off every sub-patch has its patch's value. Errors: kMemory.
+/// With options.interpolate off every sub-patch has its patch's value. `patches` may be empty: direct light knows no
+/// visible area of dropped ones. Errors: kMemory.
 Status map_illuminance(const Scene& scene, std::span<const Patch> patches, const DirectLight& direct,
                        const AmbientLight& ambient, const Options& options, Arena& arena, IlluminanceMaps& maps);
 

@@ -1,6 +1,5 @@
 #include "scene/scene_store.h"
 
-#include "base/check.h"
 #include "base/text.h"
 
 namespace shodo {
@@ -49,7 +48,11 @@ bool SceneStore::begin_storing(Arena& arena, Status& status) {
     return false;
   }
   arena.release(mark);
-  SHODO_CHECK(take_blocks(arena));
+  if (!take_blocks(arena)) {
+    status = arena.refused();
+    arena.release(mark);
+    return false;
+  }
   counted_ = counts_;
   counts_ = {};
   storing_ = true;

@@ -46,18 +46,29 @@ struct Geometry {
   std::span<PolygonTriangles> cells;  // per cell of each mesh: Geometry::first_cell[mesh] + cell
   std::span<std::uint32_t> first_cell;          // per mesh
   std::span<PolygonTriangles> light_triangles;  // per light; none for all but area lights that block
-  std::span<DrawnTriangle> drawn;               // meshes ascending, then area lights (open ones too)
+  // Meshes ascending, then area lights (open ones too); a spare block of the arena, so that what comes before the
+  // picture may have the memory: place_drawn() then.
+  std::span<DrawnTriangle> drawn;
+  std::uint32_t drawn_count = 0;
   std::span<LatticePoint> light_points;  // per light: where a point light stands, odd, in front of what it lies on
   std::uint32_t inserted = 0;            // T-junction vertices
   std::uint32_t moved = 0;               // vertices moved off a polygon's interior
+  std::uint64_t placing_bytes = 0;       // scratch of placing the scene
 };
 
 /// Places the scene on the lattice, mends T-junctions and near-touching vertices, cuts polygons into triangles.
+/// Geometry::drawn is then a pinned spare block.
 Status place_scene(const Scene& scene, Arena& arena, Geometry& geometry);
+
+/// Finds Geometry::drawn again, in a block that isn't spare. False: the arena is too small.
+bool place_drawn(const Scene& scene, Arena& arena, Geometry& geometry);
 
 /// The patches of the whole scene, dropped ones marked; counts dropped and thin ones.
 Status build_patches(const Scene& scene, const Geometry& geometry, Arena& arena, std::span<Patch>& patches,
                      Statistics& statistics);
+
+/// One of them, counted from its mesh's first; the same bits.
+Patch make_patch(const Scene& scene, const Geometry& geometry, std::uint32_t mesh, std::uint32_t local);
 
 /// How far in from a patch's borders its samples keep, of its sides: 0, or 1/4 for a thin one, whose lattice positions
 /// would leave it otherwise. A sample at parameter s of 0 .. 1 goes to inset + (1 - 2 inset) s.

@@ -33,6 +33,10 @@ Patch patch_of(const Geometry& geometry, std::uint32_t mesh, const Piece& piece)
 
 }  // namespace
 
+Patch make_patch(const Scene& scene, const Geometry& geometry, std::uint32_t mesh, std::uint32_t local) {
+  return patch_of(geometry, mesh, patch_piece(scene, scene.meshes[mesh], local));
+}
+
 double sample_inset(const Patch& patch) { return patch.thin != 0 ? 0.25 : 0.0; }
 
 Status build_patches(const Scene& scene, const Geometry& geometry, Arena& arena, std::span<Patch>& patches,
@@ -47,7 +51,7 @@ Status build_patches(const Scene& scene, const Geometry& geometry, Arena& arena,
     const std::uint32_t sub_patches = mesh.su * mesh.sv;
     for (std::uint32_t local = 0; local < mesh.patch_count(); ++local) {
       Patch& patch = patches[mesh.first_patch + local];
-      patch = patch_of(geometry, m, patch_piece(scene, mesh, local));
+      patch = make_patch(scene, geometry, m, local);
       if (patch.dropped != 0) {
         ++statistics.patches_dropped;
         continue;

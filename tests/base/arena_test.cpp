@@ -101,5 +101,57 @@ TEST(Arena, SkewedMemoryStaysWithinItsBounds) {
   }
 }
 
+TEST(Arena, SpareBlocksGoWhenTheirMemoryIsWantedTheLastFirst) {
+  Memory memory(128);
+  Arena arena(memory.at(0), 128);
+  std::span<std::uint64_t> first, second, block;
+  ASSERT_TRUE(arena.take_spare("first", 3, first));
+  ASSERT_TRUE(arena.take_spare("second", 2, second));
+  EXPECT_EQ(arena.peak(), 40u);
+  EXPECT_EQ(arena.left(), 128u);
+  first[0] = 7;
+  ASSERT_TRUE(arena.take("beside them", 11, block));
+  EXPECT_TRUE(arena.holds(first) && arena.holds(second));
+  EXPECT_EQ(arena.in_use(), 128u);
+  ASSERT_TRUE(arena.take("in the way of the second", 1, block));
+  EXPECT_TRUE(arena.holds(first) && !arena.holds(second));
+  EXPECT_EQ(first[0], 7u);
+  EXPECT_EQ(arena.stage_peak(), 128u);
+  EXPECT_FALSE(arena.take_spare("another", 2, second)) << "none is given up for a spare one";
+  ASSERT_TRUE(arena.take("in the way of the first", 4, block));
+  EXPECT_FALSE(arena.holds(first));
+  EXPECT_EQ(arena.used(), 128u);
+}
+
+TEST(Arena, PinnedBlocksStayAndARefusalCountsThem) {
+  Memory memory(128);
+  Arena arena(memory.at(0), 128);
+  std::span<std::uint64_t> first, second, block;
+  ASSERT_TRUE(arena.take_spare("first", 2, first));
+  ASSERT_TRUE(arena.take_spare("second", 2, second));
+  arena.pin_spares(1);
+  EXPECT_EQ(arena.left(), 112u);
+  EXPECT_FALSE(arena.take("too large", 15, block));
+  EXPECT_EQ(arena.refused().bytes_needed, 136u);
+  EXPECT_TRUE(arena.holds(second)) << "nothing is given up in vain";
+  ASSERT_TRUE(arena.take("just fits", 14, block));
+  EXPECT_TRUE(arena.holds(first) && !arena.holds(second));
+}
+
+TEST(Arena, LoweringMovesWhatStandsAbove) {
+  Memory memory(64);
+  Arena arena(memory.at(0), 64);
+  std::span<std::uint64_t> a, b, c;
+  ASSERT_TRUE(arena.take("a", 1, a));
+  const Arena::Mark to = arena.mark();
+  ASSERT_TRUE(arena.take("b", 2, b));
+  const Arena::Mark from = arena.mark();
+  ASSERT_TRUE(arena.take("c", 3, c));
+  for (std::size_t k = 0; k < 3; ++k) c[k] = k + 1;
+  EXPECT_EQ(arena.lower(from, to), 16u);
+  EXPECT_EQ(arena.used(), 32u);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(b[k], k + 1);
+}
+
 }  // namespace
 }  // namespace shodo

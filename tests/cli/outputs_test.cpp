@@ -310,6 +310,14 @@ TEST(StatisticsFile, HasTheKeysOfTheContractInItsOrder) {
                                          "memory",
                                          "memory.budget",
                                          "memory.peak",
+                                         "memory.load",
+                                         "memory.direct",
+                                         "memory.ambient",
+                                         "memory.map",
+                                         "memory.picture",
+                                         "memory.lit_again",
+                                         "memory.geometry_again",
+                                         "memory.placed_again",
                                          "seconds",
                                          "seconds.load",
                                          "seconds.direct",
@@ -363,7 +371,7 @@ TEST(Check, SaysWhatWillBeModelled) {
   ASSERT_EQ(check.status, 0) << check.err;
   for (const char* part : {"3, red green blue", "7 objects, 10 meshes", "2 points, 1 area, 1 polyhedron, 1 sun", "main",
                            "lattice:   a step is", "vertices inserted", "are the smallest budget that works",
-                           "stage picture", "a PNG of 1280 x 1024"}) {
+                           "in stage 6, picture", "sub-patches: (4 c + 1) s", "a PNG of 1280 x 1024"}) {
     EXPECT_NE(check.out.find(part), std::string::npos) << part << "\n" << check.out;
   }
   EXPECT_EQ(check.out.find("warning"), std::string::npos) << check.out;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/program.h"
+#include "cli/report_memory.h"
 #include "cli/report_results.h"
 
 namespace shodo {
@@ -334,6 +335,46 @@ TEST(ReportPlot, RingsAndJoinsTheEfficientPoints) {
   EXPECT_EQ(count_of(svg_text({"p.svg", "none", "x", "y", {}, {}}), "</svg>"), 1u);
 }
 
+const std::string kMemoryCosts =
+    "room,options,budget,instructions,floating_point,seconds,rows_kept,rows_recomputed,lit_again,placed_again\n"
+    "day,--rules 1,2,600000,900,50,12.5,0,1526,1,1\n"
+    "day,--rules 1,2,800000,300,20,3.5,1526,0,0,0\n"
+    "evening,--rules 1,2,700000,400,30,4.5,1500,26,1,0\n";
+
+TEST(ReportMemory, CostsComeFromTheFileOrNot) {
+  const std::vector<MemoryCost> costs = memory_costs(kMemoryCosts);
+  ASSERT_EQ(costs.size(), 3u);
+  EXPECT_EQ(costs[0].room, "day");
+  EXPECT_EQ(costs[0].options, "--rules 1,2");
+  EXPECT_EQ(costs[0].budget, 600000);
+  EXPECT_EQ(costs[0].seconds, 12.5);
+  EXPECT_TRUE(costs[0].placed_again && costs[2].lit_again && !costs[2].placed_again);
+  EXPECT_EQ(costs[2].rows_recomputed, 26);
+  EXPECT_TRUE(memory_costs("").empty());
+  EXPECT_TRUE(memory_costs("another file\n1,2,3\n").empty());
+  EXPECT_TRUE(memory_costs(kMemoryCosts + "day,none,x,1,1,1,1,1,1,1\n").empty()) << "not a number";
+  EXPECT_TRUE(memory_costs(kMemoryCosts + "1,2,3\n").empty()) << "too few";
+}
+
+TEST(ReportMemory, TheChapterHasAPlotAndATableForEachRoom) {
+  Document document;
+  add_memory_chapter(document, {});
+  EXPECT_TRUE(document.blocks.empty());
+  add_memory_chapter(document, memory_costs(kMemoryCosts));
+  std::size_t tables = 0, points = 0;
+  for (const auto& block : document.blocks) {
+    if (const Table* table = std::get_if<Table>(&block)) {
+      ++tables;
+      EXPECT_EQ(table->rows.size(), table->scene.starts_with("day") ? 2u : 1u);
+    }
+    if (const Plot* plot = std::get_if<Plot>(&block)) points = plot->points.size();
+  }
+  EXPECT_EQ(tables, 2u);
+  EXPECT_EQ(points, 3u);
+  EXPECT_EQ(csv_files(document).size(), 1u);
+  EXPECT_EQ(plot_files(document).front().name, "memory.svg");
+}
+
 TEST(ReportWorkstation, SecondsComeFromTheFileOrNot) {
   const std::string json =
       "{\"options\": \"--rules blocks\", \"day\": {\"direct\": 1.5, \"form_factors\": 2, \"solution\": 0.25,\n"
@@ -524,7 +565,10 @@ TEST_F(ReportCommand, TakesTheWorkstationsSecondsFromBesideIt) {
   folder.write("workstation.json",
                "{\"box\": {\"direct\": 1.5, \"form_factors\": 2.5, \"solution\": 0.25, \"map\": 0.125, "
                "\"picture\": 10.75, \"total\": 15.125}}");
+  folder.write("memory-cost.csv", kMemoryCosts);
   ASSERT_EQ(report(folder, "r").status, 0);
+  EXPECT_EQ(count_of(file_text(folder / "r/memory.csv"), "\n"), 4u) << "beside it too";
+  EXPECT_EQ(count_of(file_text(folder / "r/memory.svg"), "</svg>"), 1u);
   const std::string csv = file_text(folder / "r/paper.csv");
   for (const char* end : {",1.5\n", ",2.5\n", ",0.25\n", ",0.125\n", ",10.75\n", ",15.125\n"})
     EXPECT_EQ(count_of(csv, end), 1u) << end;

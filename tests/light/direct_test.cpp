@@ -330,23 +330,47 @@ TEST(DirectLight, RefusesAnArenaThatIsTooSmallAndNamesOneThatIsNot) {
   scene.add_area({0.5, 0.5, 2}, {0.5, 1.5, 2}, {1.5, 1.5, 2}, {1.5, 0.5, 2}, 100);
   scene.light();
   std::vector<std::uint64_t> memory(4096);
-  const auto run = [&](std::size_t bytes) {
+  DirectLight direct;
+  const auto run = [&](std::size_t bytes, DirectKeeps keeps) {
     Arena arena(memory.data(), bytes);
-    DirectLight direct;
     Statistics statistics;
     Intersector intersector(scene.geometry);
-    return light_directly(scene.scene, scene.geometry, scene.patches, {}, intersector, {}, arena, direct, statistics);
+    direct = scene.direct;
+    direct.sub_patch_lx = {};
+    direct.hidden = {};
+    return light_directly(scene.scene, scene.geometry, scene.patches, {}, intersector, {}, arena, direct, statistics,
+                          keeps);
   };
-  std::size_t bytes = 0;
-  int refused = 0;
-  for (Status status = run(0); !status.done(); status = run(bytes)) {
-    ASSERT_EQ(status.code, StatusCode::kMemory);
-    ASSERT_GT(status.bytes_needed, bytes);
-    bytes = status.bytes_needed;
-    ++refused;
+  for (const DirectKeeps keeps : {DirectKeeps::kPatches, DirectKeeps::kSubPatches}) {
+    std::size_t bytes = 0;
+    int refused = 0;
+    for (Status status = run(0, keeps); !status.done(); status = run(bytes, keeps)) {
+      ASSERT_EQ(status.code, StatusCode::kMemory);
+      ASSERT_GT(status.bytes_needed, bytes);
+      bytes = status.bytes_needed;
+      ++refused;
+    }
+    const bool patches = keeps == DirectKeeps::kPatches;
+    EXPECT_EQ(refused, (patches ? 3 : 2) + 6);  // each block of results, and of scratch, once
+    EXPECT_EQ(direct.sub_patch_lx.empty(), patches) << "what isn't needed yet waits for room";
+    EXPECT_EQ(run(bytes - 8, keeps).code, StatusCode::kMemory);
   }
-  EXPECT_EQ(refused, 11);  // each block once
-  EXPECT_EQ(run(bytes - 8).code, StatusCode::kMemory);
+}
+
+TEST(DirectLight, LitOnceMoreSubPatchesAreTheSame) {
+  LitScene scene;
+  scene.room({0, 0, 0}, {2, 2, 2}, 2, 2);
+  scene.add_point({1, 1, 1}, 100);
+  scene.light();
+  const std::vector<float> expected(scene.direct.sub_patch_lx.begin(), scene.direct.sub_patch_lx.end());
+  std::vector<std::uint64_t> memory(1 << 16);
+  Arena arena(memory.data(), 8 * memory.size());
+  DirectLight direct = scene.direct;
+  Statistics statistics;
+  Intersector intersector(scene.geometry);
+  ASSERT_TRUE(light_directly(scene.scene, scene.geometry, scene.patches, {}, intersector, {}, arena, direct, statistics,
+                             DirectKeeps::kSubPatches).done());
+  EXPECT_EQ(std::vector<float>(direct.sub_patch_lx.begin(), direct.sub_patch_lx.end()), expected);
 }
 
 }  // namespace

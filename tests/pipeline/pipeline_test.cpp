@@ -1,6 +1,7 @@
 // The library as its callers see it: shodo.h alone, in memory of any size and alignment.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <initializer_list>
 #include <optional>
@@ -109,15 +110,47 @@ TEST(Pipeline, LessMemoryCostsTimeAndNeverPixels) {
   const auto expected = roomy.picture();
   EXPECT_EQ(statistics(roomy.model()).rows_recomputed, 0u);
   const std::uint64_t smallest = smallest_memory(roomy.model());
-  std::uint32_t before = 0xffffffff;
-  for (std::uint64_t bytes = smallest; bytes < smallest + 16 * 1024; bytes += 1777) {
+  std::uint32_t before[2] = {0xffffffff, 0xffffffff};  // geometry kept, and not
+  std::uint32_t last = 0;
+  for (std::uint64_t bytes = smallest; bytes < smallest + 40 * 1024; bytes += 1777) {
     Pipeline some("box.scn", bytes);
     EXPECT_TRUE(some.picture() == expected) << bytes << " bytes";
-    const std::uint32_t recomputed = statistics(some.model()).rows_recomputed;
-    EXPECT_LE(recomputed, before) << "more memory keeps more rows";
-    before = recomputed;
+    const Statistics& counted = statistics(some.model());
+    EXPECT_LE(counted.rows_recomputed, before[counted.geometry_again]) << "more memory keeps more rows";
+    last = before[counted.geometry_again] = counted.rows_recomputed;
   }
-  EXPECT_EQ(before, 0u) << "16 KiB more keep all rows of 88 patches";
+  EXPECT_LT(before[1], 0xffffffff) << "the smallest doesn't keep the patches' geometry";
+  EXPECT_EQ(last, 0u) << "40 KiB more keep all rows of 88 patches";
+}
+
+TEST(Pipeline, WithTheSmallestMemorySubPatchesAreLitAndTrianglesPlacedOnceMore) {
+  for (const std::string name : kScenes) {
+    Pipeline roomy(name, kPlenty);
+    ASSERT_TRUE(roomy.picture().has_value());
+    EXPECT_EQ(statistics(roomy.model()).lit_again + statistics(roomy.model()).placed_again, 0u);
+    Pipeline tight(name, smallest_memory(roomy.model()));
+    ASSERT_TRUE(tight.picture().has_value());
+    EXPECT_EQ(statistics(tight.model()).lit_again + statistics(tight.model()).placed_again, name == "sun.scn" ? 0u : 2u)
+        << name;
+    EXPECT_EQ(statistics(tight.model()).segments_direct, statistics(roomy.model()).segments_direct)
+        << "what is done once more is not counted";
+  }
+}
+
+TEST(Pipeline, PeaksOfTheStagesAreWithinThePlansAndTheLargestIsThePeak) {
+  for (const std::string name : kScenes) {
+    Pipeline roomy(name, kPlenty);
+    Pipeline tight(name, smallest_memory(roomy.model()));
+    ASSERT_TRUE(tight.picture().has_value());
+    const Statistics& counted = statistics(tight.model());
+    std::uint64_t most = 0;
+    for (const std::uint64_t bytes : counted.stage_peak) {
+      EXPECT_GT(bytes, 0u);
+      most = std::max(most, bytes);
+    }
+    EXPECT_EQ(most, counted.memory_peak);
+    EXPECT_LE(most, smallest_memory(roomy.model()));
+  }
 }
 
 TEST(Pipeline, ALoadThatIsRefusedSaysHowManyBytesItWantedAndWritesNowhereElse) {
@@ -147,6 +180,23 @@ TEST(Pipeline, SolvingTwiceGivesTheSameAndCountsOnce) {
   EXPECT_EQ(again.form_factors_computed, counted.form_factors_computed);
   EXPECT_EQ(again.nonzeros, counted.nonzeros);
   EXPECT_EQ(again.patches_thin, counted.patches_thin);
+}
+
+/// Where memory is short the picture takes that of the patches, and the light takes it back.
+TEST(Pipeline, SolvingAndDrawingAgainInTheSmallestMemoryGivesTheSame) {
+  for (const std::string name : kScenes) {
+    Pipeline roomy(name, kPlenty);
+    const auto expected = roomy.picture();
+    Pipeline tight(name, smallest_memory(roomy.model()));
+    EXPECT_TRUE(tight.picture() == expected) << name;
+    EXPECT_TRUE(tight.drawn() == expected) << name << ", drawn again";
+    EXPECT_TRUE(tight.picture() == expected) << name << ", solved again";
+    int calls = 5;
+    const Progress stop{[](void* left, Stage, std::uint64_t, std::uint64_t) { return --*static_cast<int*>(left) > 0; },
+                        &calls};
+    EXPECT_EQ(solve(tight.model(), stop).code, StatusCode::kInterrupted);
+    EXPECT_TRUE(tight.picture() == expected) << name << ", after an interrupt";
+  }
 }
 
 TEST(Pipeline, DrawingNeedsASolvedModel) {

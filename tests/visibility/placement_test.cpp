@@ -203,7 +203,7 @@ TEST(Placement, ResultsHaveNoSlackAndMemoryChangesNothing) {
   const std::size_t exact = block(g.triangles.size() * sizeof(Triangle)) +
                             block(g.drawn.size() * sizeof(DrawnTriangle)) + block(7 * sizeof(PolygonTriangles)) +
                             block(1 * sizeof(PolygonTriangles)) + block(7 * 4) + block(1 * sizeof(LatticePoint));
-  EXPECT_EQ(roomy.arena.used(), exact);
+  EXPECT_EQ(roomy.arena.in_use(), exact);
   HandMadeScene tight;
   fill(tight);
   tight.arena_bytes = roomy.arena.peak();
@@ -218,6 +218,23 @@ TEST(Placement, ResultsHaveNoSlackAndMemoryChangesNothing) {
     EXPECT_EQ(small.status.code, StatusCode::kMemory) << bytes;
     EXPECT_GT(small.status.bytes_needed, bytes);
   }
+}
+
+TEST(Placement, TrianglesPlacedAgainAreTheSame) {
+  HandMadeScene scene;
+  frustum(scene);
+  scene.transform([](const Vec3& v) { return turned(v, {1, 2, 3}, 0.1); });
+  scene.place();
+  ASSERT_TRUE(scene.status.done());
+  Geometry again = scene.geometry;
+  const std::size_t before = scene.arena.used();
+  scene.arena.start_stage();
+  ASSERT_TRUE(place_drawn(scene.scene, scene.arena, again));
+  EXPECT_NE(again.drawn.data(), scene.geometry.drawn.data());
+  EXPECT_EQ(canonical(again), canonical(scene.geometry));
+  const std::size_t block = (again.drawn.size() * sizeof(DrawnTriangle) + 7) / 8 * 8;
+  EXPECT_EQ(scene.arena.used(), before + block);
+  EXPECT_EQ(scene.arena.stage_peak(), 2 * block + before + again.placing_bytes) << "the plan counts on it";
 }
 
 TEST(Placement, PolygonsWithoutAreaBlockNothingAndChangeNothing) {
