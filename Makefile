@@ -1,4 +1,4 @@
-# shodo: `make` builds build/shodo. Other targets: rooms, report, test, check-same-bytes, workstation, install,
+# shodo: `make` builds build/shodo. Other targets: rooms, report, test, check-same-bytes, machines, workstation, install,
 # install-needs, clean.
 #
 # Settings, on the command line of make:
@@ -14,7 +14,7 @@ DESTDIR =
 
 # The same bits everywhere: no contraction of a * b + c into one rounding. The library knows no exceptions.
 COMMON_FLAGS = -std=c++20 $(OPT) -ffp-contract=off -Wall -Wextra -Wconversion -Werror -Isrc -Iinclude
-LIBRARY_FLAGS = $(COMMON_FLAGS) -fno-exceptions -fno-rtti
+LIBRARY_FLAGS = $(COMMON_FLAGS) -fno-exceptions -fno-rtti -fstack-usage
 PROGRAM_FLAGS = $(COMMON_FLAGS)
 TEST_FLAGS = $(COMMON_FLAGS) -I. -Itests
 
@@ -90,6 +90,11 @@ install: $(BUILD)/shodo
 workstation:
 	@sh tools/workstation $(WORKSTATION_OPTIONS)
 
+# The same scenes on many machines under QEMU: out/machines.txt, out/machines.csv; MACHINES="mips 'x86-64*'" runs some.
+machines: $(BUILD)/shodo
+	-@sh tools/install-needs machines
+	@SHODO_PROGRAM=$(BUILD)/shodo sh tools/machines $(MACHINES)
+
 install-needs:
 	sh tools/install-needs test
 
@@ -97,7 +102,7 @@ clean:
 	rm -rf $(BUILD) $(OUT)
 
 FORCE:
-.PHONY: all rooms report test check-same-bytes workstation install install-needs clean FORCE
+.PHONY: all rooms report test check-same-bytes machines workstation install install-needs clean FORCE
 .SECONDARY:
 
 -include $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(TEST_OBJECTS:.o=.d)

@@ -1,0 +1,24 @@
+// The cases on a machine with an operating system: the log goes to standard output.
+//   hosted [CASE]     one case only
+#include <cstdio>
+
+#include "machines/cases.h"
+
+#ifndef MACHINE_MEMORY
+#define MACHINE_MEMORY (2 << 20)
+#endif
+
+namespace {
+
+alignas(8) unsigned char memory[MACHINE_MEMORY];
+
+void print(const char* text) {
+  std::fputs(text, stdout);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  return machines::run_cases({memory, print, {}}, count > 1 ? words[1] : "");
+}
