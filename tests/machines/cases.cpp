@@ -39,13 +39,13 @@ void repeated_rule2(Options& o) {
 void blocks(Options& o) {
   small(o);
   o.rules.blocks = true;
-  o.refine = 2;
+  o.refine = 1.5;
   o.segments_first = 1;
   o.segments_mixed = 16;
 }
 
 void room(Options& o) {
-  o.refine = 0.34;
+  o.refine = 0.2;
   o.segments_first = 1;
   o.segments_mixed = 16;
   o.width = 160;
@@ -56,7 +56,7 @@ void room(Options& o) {
 constexpr Case kCases[] = {
     {"box", "tests/cli/scenes/box.scn", small, true, true},
     {"sun", "tests/cli/scenes/sun.scn", small, false, false},
-    {"shapes", "tests/cli/scenes/shapes.scn", shapes, true, false},
+    {"shapes", "tests/cli/scenes/shapes.scn", shapes, false, false},
     {"rules", "tests/cli/scenes/shapes.scn", papers_rules, false, false},
     {"rule2+", "tests/cli/scenes/box.scn", repeated_rule2, false, false},
     {"blocks", "tests/cli/scenes/box.scn", blocks, true, false},

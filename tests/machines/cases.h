@@ -21,6 +21,9 @@ struct Case {
 
 std::span<const Case> all_cases();
 
+/// The library's budget, fixed when the program is built.
+inline constexpr std::size_t kBudgetBytes = 640 << 10;
+
 /// Pixels of the picture that is sent.
 inline constexpr std::uint32_t kSentWidth = 64, kSentHeight = 48;
 
@@ -30,7 +33,7 @@ bool find_file(std::string_view path, std::string_view& text);
 
 /// What a machine must offer.
 struct Machine {
-  std::span<unsigned char> memory;    // the budget, fixed when the program is built
+  std::span<unsigned char> memory;    // kBudgetBytes
   void (*print)(const char* text);    // for the log
   shodo::LineSink picture;            // takes the lines of the case that is sent, each as it is finished
 };

@@ -19,8 +19,8 @@ inline constexpr Hashes kHashes[] = {
     {"shapes", 0x469cceb63c854071, 0x91e43f4aec05d876},
     {"rules", 0x5c4dbdebdc599f33, 0x802a2d6b7938aed8},
     {"rule2+", 0xf1df80867dbf1291, 0x0c328bdef64ee4c7},
-    {"blocks", 0xbc0a25860c05d386, 0xf930fd3b35102858},
-    {"day", 0x33889a05aa584408, 0x683de72b3ff3c9d6},
+    {"blocks", 0xeacf022d2e91f573, 0x052d57c02559a326},
+    {"day", 0xfa9d1499cc61f7c9, 0x9891e8be803d8f63},
 };
 
 }  // namespace machines

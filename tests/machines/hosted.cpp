@@ -4,13 +4,9 @@
 
 #include "machines/cases.h"
 
-#ifndef MACHINE_MEMORY
-#define MACHINE_MEMORY (2 << 20)
-#endif
-
 namespace {
 
-alignas(8) unsigned char memory[MACHINE_MEMORY];
+alignas(8) unsigned char memory[machines::kBudgetBytes];
 
 void print(const char* text) {
   std::fputs(text, stdout);

@@ -2,7 +2,7 @@
 // it (-M mps2-an385).
 //
 // There is no FPU: doubles are libgcc's soft-float, built on integers. The scenes are compiled in, the budget is fixed
-// when the program is built (MACHINE_MEMORY), the log goes out by semihosting, and the picture that is sent leaves by
+// when the program is built, the log goes out by semihosting, and the picture that is sent leaves by
 // the first serial port as a PPM, each line as it is finished. Nothing of newlib is used but memory moves and the
 // square root. Before anything runs the stack is painted; at the end the deepest byte that was ever written is told.
 #include <cstddef>
@@ -11,10 +11,6 @@
 #include "base/text.h"
 #include "machines/cases.h"
 
-#ifndef MACHINE_MEMORY
-#define MACHINE_MEMORY (2 << 20)
-#endif
-
 extern "C" {
 extern std::uint32_t data_load[], data_start[], data_end[], bss_start[], bss_end[], stack_low[], stack_high[];
 void reset();
@@ -22,7 +18,7 @@ void reset();
 
 namespace {
 
-alignas(8) __attribute__((section(".budget"))) unsigned char memory[MACHINE_MEMORY];
+alignas(8) __attribute__((section(".budget"))) unsigned char memory[machines::kBudgetBytes];
 
 // ---- semihosting: a breakpoint with the operation in r0 asks the debugger, here QEMU
 
