@@ -11,11 +11,14 @@
 
 namespace machines {
 
+/// Whether a case runs once more in the smallest memory that works, to the same hashes.
+enum class Scarce : std::uint8_t { kNever, kIfFast, kAlways };
+
 struct Case {
   const char* name;
   const char* scene;                  // among the files compiled in
   void (*choose)(shodo::Options&);
-  bool scarce;                        // once more in the smallest memory that works: the same hashes
+  Scarce scarce;
   bool sent;                          // its picture leaves the machine as it is drawn
 };
 
@@ -36,6 +39,7 @@ struct Machine {
   std::span<unsigned char> memory;    // kBudgetBytes
   void (*print)(const char* text);    // for the log
   shodo::LineSink picture;            // takes the lines of the case that is sent, each as it is finished
+  bool fast;
 };
 
 /// Runs all cases, or the one of that name, and compares with hashes.h. Prints a line a case, and one of all:

@@ -16,5 +16,5 @@ void print(const char* text) {
 }  // namespace
 
 int main(int count, char** words) {
-  return machines::run_cases({memory, print, {}}, count > 1 ? words[1] : "");
+  return machines::run_cases({memory, print, {}, true}, count > 1 ? words[1] : "");
 }

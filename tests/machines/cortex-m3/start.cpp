@@ -90,7 +90,7 @@ int run() {
   port().divider = 16;
   port().control = kSenderOn;
   paint_stack();
-  const int status = machines::run_cases({memory, print, {send_line, nullptr}}, "");
+  const int status = machines::run_cases({memory, print, {send_line, nullptr}, false}, "");
   char line[64];
   shodo::TextBuilder(line, sizeof line).add("stack ").add(stack_used()).add("\n");
   print(line);
