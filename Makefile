@@ -1,5 +1,5 @@
-# shodo: `make` builds build/shodo. Other targets: rooms, report, test, check-same-bytes, workstation, memory-cost,
-# check-budgets, install, install-needs, clean.
+# shodo: `make` builds build/shodo. Other targets: rooms, report, test, check-same-bytes, machines, workstation,
+# memory-cost, check-budgets, install, install-needs, clean.
 #
 # Settings, on the command line of make:
 #   CXX=clang++ OPT=-O0   another compiler or optimisation; what was built with other flags is built again
@@ -14,7 +14,7 @@ DESTDIR =
 
 # The same bits everywhere: no contraction of a * b + c into one rounding. The library knows no exceptions.
 COMMON_FLAGS = -std=c++20 $(OPT) -ffp-contract=off -Wall -Wextra -Wconversion -Werror -Isrc -Iinclude
-LIBRARY_FLAGS = $(COMMON_FLAGS) -fno-exceptions -fno-rtti
+LIBRARY_FLAGS = $(COMMON_FLAGS) -fno-exceptions -fno-rtti -fstack-usage
 PROGRAM_FLAGS = $(COMMON_FLAGS)
 TEST_FLAGS = $(COMMON_FLAGS) -I. -Itests
 
@@ -113,6 +113,11 @@ memory-cost:
 check-budgets:
 	@sh tools/check-budgets $(MEMORY_COST_OPTIONS)
 
+# The same scenes on many machines under QEMU: out/machines.txt, out/machines.csv; MACHINES="mips 'x86-64*'" runs some.
+machines: $(BUILD)/shodo
+	-@sh tools/install-needs machines
+	@SHODO_PROGRAM=$(BUILD)/shodo sh tools/machines $(MACHINES)
+
 install-needs:
 	sh tools/install-needs test
 
@@ -120,7 +125,8 @@ clean:
 	rm -rf $(BUILD) $(OUT)
 
 FORCE:
-.PHONY: all rooms report test check-same-bytes workstation memory-cost check-budgets install install-needs clean FORCE
+.PHONY: all rooms report test check-same-bytes machines workstation memory-cost check-budgets install install-needs \
+  clean FORCE
 .SECONDARY:
 
 -include $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(TEST_OBJECTS:.o=.d)

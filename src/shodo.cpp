@@ -7,6 +7,7 @@
 
 #include <new>
 
+#include "base/self_check.h"
 #include "base/text.h"
 #include "memory_plan.h"
 #include "model.h"
@@ -190,9 +191,20 @@ Status place_and_draw(Model& model, const Progress& progress, const LineSink& si
 
 }  // namespace
 
+Status self_check() {
+  Status status;
+  const char* const fault = arithmetic_fault();
+  if (fault == nullptr) return status;
+  status.code = StatusCode::kFile;
+  TextBuilder text(status.message, sizeof status.message);
+  text.add("this machine's arithmetic would change pixels: expected ").add(fault).add(", found otherwise");
+  return status;
+}
+
 Status load(std::string_view name, std::string_view text, const Reader& reader, const Options& options, void* memory,
             std::size_t bytes, Model*& model) {
   model = nullptr;
+  if (const Status fit = self_check(); !fit.done()) return fit;
   const std::size_t skew = reinterpret_cast<std::uintptr_t>(memory) % alignof(Model);
   const std::size_t skip = skew == 0 ? 0 : alignof(Model) - skew;
   const std::size_t overhead = skip + sizeof(Model);
@@ -216,6 +228,7 @@ Status load(std::string_view name, std::string_view text, const Reader& reader, 
 }
 
 Status solve(Model& model, const Progress& progress) {
+  if (const Status fit = self_check(); !fit.done()) return fit;
   model.statistics = model.loaded;
   model.solved = false;
   const std::uint64_t needed = smallest_memory(model, false);
@@ -231,6 +244,7 @@ Status solve(Model& model, const Progress& progress) {
 }
 
 Status draw(Model& model, const Progress& progress, const LineSink& sink) {
+  if (const Status fit = self_check(); !fit.done()) return fit;
   if (!model.solved) return wrong_use("expected a solved model, found one that is only loaded");
   const std::uint64_t needed = smallest_memory(model);
   if (needed > model.memory_bytes) return too_small(needed, model.memory_bytes);

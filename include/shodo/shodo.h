@@ -15,6 +15,10 @@ namespace shodo {
 /// A scene and everything computed of it; lives in the memory given to load().
 struct Model;
 
+/// Whether this machine's arithmetic is the one that the pixels rest on (doc/determinism.md). load, solve and draw ask
+/// it first: the state of a processor can change in between. Errors: kFile, and `message` says what was expected.
+Status self_check();
+
 /// Reads a scene and places it on the lattice; `model` then lives in `memory`, and so does everything that follows.
 /// What `options.camera` views stays the caller's. Errors: kScene with file:line:column, kFile, kMemory, kUsage.
 Status load(std::string_view name, std::string_view text, const Reader& reader, const Options& options, void* memory,

@@ -12,7 +12,8 @@ namespace shodo {
 /// The value is the program's exit status.
 enum class StatusCode : std::uint8_t {
   kDone = 0,
-  kFile = 1,            // a file could not be read or written
+  kFile = 1,            // what the run stands on fails: a file could not be read or written, or this machine's
+                        // arithmetic is not the one expected (self_check)
   kUsage = 2,           // an option or an argument that the call doesn't take
   kScene = 3,           // the scene is wrong: file, line and column say where
   kMemory = 4,          // the arena is too small: bytes_needed says for what

@@ -88,6 +88,8 @@ TextBuilder& TextBuilder::add(std::string_view text) {
   return *this;
 }
 
+TextBuilder& TextBuilder::add(const char* text) { return add(std::string_view(text)); }
+
 TextBuilder& TextBuilder::add_integer(std::uint64_t magnitude, bool negative) {
   char characters[20];  // 2^64 - 1 has 20 digits, -2^63 a sign and 19
   std::size_t start = sizeof characters;

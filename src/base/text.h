@@ -18,6 +18,8 @@ class TextBuilder {
   TextBuilder(char* buffer, std::size_t capacity);
 
   TextBuilder& add(std::string_view text);
+  /// Not inline: a literal's length, computed at each of a hundred calls, is what small machines have no room for.
+  TextBuilder& add(const char* text);
   TextBuilder& add(char character) { return add(std::string_view(&character, 1)); }
   /// Any integer, decimal.
   template <class T>

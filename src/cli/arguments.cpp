@@ -368,8 +368,9 @@ std::string help_text() {
     add_line(text, std::string(rule.name) + gap + std::string(rule.value), rule.help);
   }
   text +=
-      "\nExit status: 0 done, 1 a file could not be read or written, 2 wrong usage, 3 the scene is wrong,\n"
-      "4 the memory budget is too small (the smallest that works is named), 130 interrupted.\n";
+      "\nExit status: 0 done, 1 a file could not be read or written, or this machine's arithmetic is not the one\n"
+      "expected, 2 wrong usage, 3 the scene is wrong, 4 the memory budget is too small (the smallest that works is\n"
+      "named), 130 interrupted.\n";
   return text;
 }
 

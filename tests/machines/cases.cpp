@@ -1,0 +1,70 @@
+#include "machines/cases.h"
+
+namespace machines {
+
+namespace {
+
+using shodo::FlagMode;
+using shodo::Options;
+
+void small(Options& o) {
+  o.width = kSentWidth;
+  o.height = kSentHeight;
+}
+
+void shapes(Options& o) {
+  o.width = 96;
+  o.height = 72;
+  o.antialias = 16;
+  o.row_value_bits = 64;
+  o.tiers = 0;
+}
+
+void papers_rules(Options& o) {
+  shapes(o);
+  o.antialias = 1;
+  o.row_value_bits = 16;
+  o.tiers = 1e-3;
+  o.rules.rule1 = o.rules.rule2 = o.rules.rule3 = true;
+  o.flags = FlagMode::kOff;
+}
+
+void repeated_rule2(Options& o) {
+  small(o);
+  o.rules.rule2_repeated = true;
+  o.interpolate = o.scale_rows = false;
+  o.segments_first = 1;
+}
+
+void blocks(Options& o) {
+  small(o);
+  o.rules.blocks = true;
+  o.refine = 1.5;
+  o.segments_first = 1;
+  o.segments_mixed = 16;
+}
+
+void room(Options& o) {
+  o.refine = 0.2;
+  o.segments_first = 1;
+  o.segments_mixed = 16;
+  o.width = 160;
+  o.height = 128;
+  o.rules.blocks = true;
+}
+
+constexpr Case kCases[] = {
+    {"box", "tests/cli/scenes/box.scn", small, Scarce::kAlways, true},
+    {"sun", "tests/cli/scenes/sun.scn", small, Scarce::kNever, false},
+    {"shapes", "tests/cli/scenes/shapes.scn", shapes, Scarce::kNever, false},
+    {"rules", "tests/cli/scenes/shapes.scn", papers_rules, Scarce::kNever, false},
+    {"rule2+", "tests/cli/scenes/box.scn", repeated_rule2, Scarce::kNever, false},
+    {"blocks", "tests/cli/scenes/box.scn", blocks, Scarce::kIfFast, false},
+    {"day", "data/day.scn", room, Scarce::kNever, false},
+};
+
+}  // namespace
+
+std::span<const Case> all_cases() { return kCases; }
+
+}  // namespace machines

@@ -1,0 +1,49 @@
+// The scene files as part of the program: `.incbin` is the one thing that all assemblers of all machines share.
+#include "machines/cases.h"
+
+// Paths count from the folder in which the compiler runs, the top of the sources.
+#define COMPILED_IN(symbol, path)                                                                            \
+  asm(".section .rodata\n.balign 8\n.globl " #symbol "\n" #symbol ":\n.incbin \"" path "\"\n.globl " #symbol \
+      "_end\n" #symbol "_end:\n.byte 0\n.previous\n");                                                        \
+  extern "C" const char symbol[], symbol##_end[]
+
+COMPILED_IN(file_box, "tests/cli/scenes/box.scn");
+COMPILED_IN(file_sun, "tests/cli/scenes/sun.scn");
+COMPILED_IN(file_shapes, "tests/cli/scenes/shapes.scn");
+COMPILED_IN(file_day, "data/day.scn");
+COMPILED_IN(file_room, "data/room.scn");
+
+namespace machines {
+
+namespace {
+
+struct File {
+  std::string_view path;
+  const char* start;
+  const char* end;
+};
+
+constexpr File kFiles[] = {
+    {"tests/cli/scenes/box.scn", file_box, file_box_end},
+    {"tests/cli/scenes/sun.scn", file_sun, file_sun_end},
+    {"tests/cli/scenes/shapes.scn", file_shapes, file_shapes_end},
+    {"data/day.scn", file_day, file_day_end},
+    {"room.scn", file_room, file_room_end},  // as day.scn calls it
+};
+
+}  // namespace
+
+bool find_file(std::string_view path, std::string_view& text) {
+  for (const File& file : kFiles) {
+    if (file.path != path) continue;
+    text = std::string_view(file.start, static_cast<std::size_t>(file.end - file.start));
+    return true;
+  }
+  return false;
+}
+
+shodo::Reader compiled_in() {
+  return {[](void*, std::string_view path, std::string_view& text) { return find_file(path, text); }, nullptr};
+}
+
+}  // namespace machines
