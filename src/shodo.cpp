@@ -233,7 +233,9 @@ Status solve(Model& model, const Progress& progress) {
   model.solved = false;
   const std::uint64_t needed = smallest_memory(model, false);
   if (needed > model.memory_bytes) return too_small(needed, model.memory_bytes);
-  model.arena.release_spares(model.loaded_spares);
+  // Where they were others may lie by now: gone is gone.
+  if (!model.arena.holds(model.geometry.drawn)) model.geometry.drawn = {};
+  model.arena.release_spares(model.geometry.drawn.empty() ? 0 : model.loaded_spares);
   model.arena.pin_spares(0);
   Status status = take_patches(model);
   if (!status.done()) return with_model(status, model.overhead);

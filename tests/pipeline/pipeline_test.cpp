@@ -115,6 +115,7 @@ TEST(Pipeline, LessMemoryCostsTimeAndNeverPixels) {
   for (std::uint64_t bytes = smallest; bytes < smallest + 40 * 1024; bytes += 1777) {
     Pipeline some("box.scn", bytes);
     EXPECT_TRUE(some.picture() == expected) << bytes << " bytes";
+    EXPECT_TRUE(some.picture() == expected) << bytes << " bytes, once more";
     const Statistics& counted = statistics(some.model());
     EXPECT_LE(counted.rows_recomputed, before[counted.geometry_again]) << "more memory keeps more rows";
     last = before[counted.geometry_again] = counted.rows_recomputed;
