@@ -259,6 +259,31 @@ TEST(Hidden, UnderABoxThatStandsOnAFloorAndInsideIt) {
   }
 }
 
+// Furniture at a wall, without a back of its own: from inside one sees the wall's front, and a skirting's.
+TEST(Hidden, UnderABoxThatLeansOnAWallAndHasNoBack) {
+  HandMadeScene scene;
+  scene.box({0, 0, 0}, {4, 4, 3}, true);
+  scene.object();
+  scene.quad({0, 0, 0.1}, {4, 0, 0.1}, {4, 0.02, 0}, {0, 0.02, 0});  // skirting
+  scene.object();
+  scene.quad({1, 0, 1}, {2, 0, 1}, {2, 0.8, 1}, {1, 0.8, 1});  // top, front, two sides
+  scene.quad({1, 0.8, 0}, {1, 0.8, 1}, {2, 0.8, 1}, {2, 0.8, 0});
+  scene.quad({1, 0, 0}, {1, 0, 1}, {1, 0.8, 1}, {1, 0.8, 0});
+  scene.quad({2, 0, 0}, {2, 0.8, 0}, {2, 0.8, 1}, {2, 0, 1});
+  scene.place();
+  ASSERT_TRUE(scene.status.done());
+  Intersector intersector(scene.geometry);
+  Random random(9);
+  const std::uint32_t floor = 0;
+  for (int s = 0; s < 400; ++s) {
+    const double x = 0.5 + 2 * random.unit(), y = 0.05 + 1.5 * random.unit();
+    const auto within = [&](double margin) { return x > 1 + margin && x < 2 - margin && y < 0.8 - margin; };
+    if (within(-1e-3) != within(1e-3)) continue;
+    const LatticePoint p = sample_point(scene.scene, scene.geometry, floor, 0, Vec3{x, y, 0} - scene.scene.origin);
+    EXPECT_EQ(is_hidden(intersector, p, {0, 0, 1}), within(0)) << x << ", " << y;
+  }
+}
+
 TEST(Intersector, NearestMatchesTheTwin) {
   Random random(5);
   std::uint64_t hits = 0, ties = 0;
