@@ -344,7 +344,8 @@ bool SubPatch::all_hidden() {
   place_probes();
   LatticePoint lattice[kMostProbes];
   for (std::uint32_t k = 0; k < probes_.count; ++k) lattice[k] = probes_.sample[k].lattice;
-  return hidden_samples(sources_.intersector(), {lattice, probes_.count}, receiver_.normal, true) != 0;
+  const std::uint32_t all = (std::uint32_t{1} << probes_.count) - 1;
+  return hidden_samples(sources_.intersector(), {lattice, probes_.count}, receiver_.normal, true) == all;
 }
 
 }  // namespace

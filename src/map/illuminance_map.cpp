@@ -7,12 +7,17 @@ namespace shodo {
 
 namespace {
 
+/// Passes over a mesh with partly hidden patches.
+constexpr std::uint32_t kHiddenPasses = 3;
+
 constexpr std::uint64_t rounded_up(std::uint64_t bytes) { return (bytes + 7) / 8 * 8; }
 
 /// One mesh and channel at a time; sized for the mesh that needs most.
 struct Scratch {
   std::span<double> patch;        // lux; extrapolated where a patch has no value
   std::span<double> inner;        // quads and grids: spread along u; triangles: values of corners, then of sub-patches
+  std::span<double> lacking;      // of partly hidden patches: lux that the visible sub-patches lack, summed
+  std::span<std::uint32_t> seen;  // sub-patches that are not hidden
   std::span<std::uint8_t> known;  // 1: the patch has a value; 2: it got one in this pass; 0: none yet
 };
 
@@ -45,10 +50,14 @@ struct MeshMap {
     const double lx = ambient.patch_lx[(std::size_t{mesh.first_patch} + local) * scene.channels + c];
     return lx > 0 ? lx : 0;
   }
+  bool hidden(std::uint32_t local) const {
+    return !maps.hidden.empty() && maps.hidden[std::size_t{mesh.first_sub_patch} + local] != 0;
+  }
+  float& sub_patch_lx(std::uint32_t local, std::uint32_t c) const {
+    return maps.ambient_lx[(std::size_t{mesh.first_sub_patch} + local) * scene.channels + c];
+  }
   void set(std::uint32_t local, std::uint32_t c, double lx) const {
-    const std::size_t at = std::size_t{mesh.first_sub_patch} + local;
-    const bool hidden = !maps.hidden.empty() && maps.hidden[at] != 0;
-    maps.ambient_lx[at * scene.channels + c] = hidden ? 0.0f : static_cast<float>(lx);
+    sub_patch_lx(local, c) = hidden(local) ? 0.0f : static_cast<float>(lx);
   }
 };
 
@@ -163,6 +172,45 @@ void spread_constant(const MeshMap& map) {
   }
 }
 
+void spread_patches(const MeshMap& map, const Scratch& scratch, std::uint32_t c) {
+  if (map.mesh.kind == MeshKind::kTriangle) {
+    spread_pieces(map, scratch, c);
+  } else {
+    spread_rows(map, scratch, c);
+  }
+}
+
+/// Spreads again until the mean over the visible sub-patches of a partly hidden patch is the patch's value: what it
+/// lacks is added to what is spread.
+void settle_hidden(const MeshMap& map, std::span<const float> visible_area, const Scratch& scratch, std::uint32_t c) {
+  const Mesh& mesh = map.mesh;
+  bool partly = false;
+  for (std::uint32_t p = 0; p < mesh.patch_count(); ++p) {
+    const float visible = visible_area.empty() ? 1.0f : visible_area[std::size_t{mesh.first_patch} + p];
+    partly = partly || (visible > 0 && visible < 1);
+  }
+  if (!partly) return;
+  for (std::uint32_t pass = 0; pass < kHiddenPasses; ++pass) {
+    for (std::uint32_t p = 0; p < mesh.patch_count(); ++p) {
+      scratch.lacking[p] = 0;
+      scratch.seen[p] = 0;
+    }
+    for (std::uint32_t s = 0; s < mesh.sub_patch_count(); ++s) {
+      if (map.hidden(s)) continue;
+      const std::uint32_t p = patch_of_sub_patch(mesh, s);
+      scratch.lacking[p] += map.patch_lx(p, c) - static_cast<double>(map.sub_patch_lx(s, c));
+      scratch.seen[p] += 1;
+    }
+    const std::uint32_t all = mesh.su * mesh.sv;
+    for (std::uint32_t p = 0; p < mesh.patch_count(); ++p) {
+      if (scratch.seen[p] == 0 || scratch.seen[p] == all) continue;
+      const double lx = scratch.patch[p] + scratch.lacking[p] / scratch.seen[p];
+      scratch.patch[p] = lx > 0 ? lx : 0;
+    }
+    spread_patches(map, scratch, c);
+  }
+}
+
 /// A mesh whose patches are all hidden or dropped stays at 0.
 void spread_mesh(const MeshMap& map, std::span<const Patch> patches, const DirectLight& direct,
                  const Scratch& scratch) {
@@ -176,11 +224,8 @@ void spread_mesh(const MeshMap& map, std::span<const Patch> patches, const Direc
       scratch.patch[p] = scratch.known[p] != 0 ? map.patch_lx(p, c) : 0;
     }
     if (!fill_unknown(mesh, scratch)) return;
-    if (mesh.kind == MeshKind::kTriangle) {
-      spread_pieces(map, scratch, c);
-    } else {
-      spread_rows(map, scratch, c);
-    }
+    spread_patches(map, scratch, c);
+    settle_hidden(map, direct.visible_area, scratch, c);
   }
 }
 
@@ -197,9 +242,12 @@ Status map_illuminance(const Scene& scene, std::span<const Patch> patches, const
   Scratch scratch;
   if (options.interpolate) {
     const ScratchSize size = scratch_size(scene);
-    const bool taken = arena.take("patches of a mesh", static_cast<std::size_t>(size.patches), scratch.patch) &&
+    const std::size_t most = static_cast<std::size_t>(size.patches);
+    const bool taken = arena.take("patches of a mesh", most, scratch.patch) &&
                        arena.take("spreading over a mesh", static_cast<std::size_t>(size.inner), scratch.inner) &&
-                       arena.take("known patches", static_cast<std::size_t>(size.patches), scratch.known);
+                       arena.take("what visible sub-patches lack", most, scratch.lacking) &&
+                       arena.take("visible sub-patches", most, scratch.seen) &&
+                       arena.take("known patches", most, scratch.known);
     if (!taken) return arena.refused();
   }
   for (const Mesh& mesh : scene.meshes) {
@@ -217,7 +265,7 @@ std::uint64_t map_bytes(const Scene& scene, const Options& options) {
   const std::uint64_t values = rounded_up(4 * std::uint64_t{scene.sub_patch_count} * scene.channels);
   if (!options.interpolate) return values;
   const ScratchSize size = scratch_size(scene);
-  return values + 8 * size.patches + 8 * size.inner + rounded_up(size.patches);
+  return values + 16 * size.patches + rounded_up(4 * size.patches) + 8 * size.inner + rounded_up(size.patches);
 }
 
 }  // namespace shodo

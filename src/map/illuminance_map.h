@@ -2,9 +2,11 @@
 //
 // Ambient light of a quad or grid is spread along u, then along v (parabolic.h), that of a triangle by linear pieces
 // (triangle_spread.h): continuous over a mesh, sub-patch values are means over the sub-patch in the mesh's
-// parameters, and the mean over all sub-patches of a patch, hidden ones among them, is the patch's value up to
-// rounding to float (deviation D7). A patch that was dropped or is hidden altogether has no value of its own:
-// neighbours continue into it, so that it doesn't darken them.
+// parameters, and the mean over all sub-patches of a patch is the patch's value up to rounding to float (deviation
+// D7). A patch that was dropped or is hidden altogether has no value of its own: neighbours continue into it, so that
+// it doesn't darken them. The value of a partly hidden one is that of its visible part: what is spread is moved until
+// the mean over the visible sub-patches is that value. Approximate: three passes, after which it is within a few
+// thousandths of what light changes by over a patch.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +36,7 @@ Status map_illuminance(const Scene& scene, std::span<const Patch> patches, const
 
 /// What map_illuminance takes of the arena, exactly, each block rounded up to 8 bytes:
 ///
-///   4 sub_patches channels, which stay, and if it interpolates 9 patches + 8 inner
+///   4 sub_patches channels, which stay, and if it interpolates 21 patches + 8 inner
 ///
 /// patches: the most patches of a mesh. inner: the most of a mesh's su nu nv, of a triangle's sub-patches + (nu + 1)
 /// (nu + 2).

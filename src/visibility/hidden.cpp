@@ -4,13 +4,14 @@ namespace shodo {
 
 namespace {
 
-/// Along two tangents and the normal. The rings are turned against each other, and none lies along a tangent, so that
-/// rays seldom run within faces that stand square on the surface.
+/// Along two tangents and the normal. The rings are turned against each other, and none lies along a tangent or the
+/// normal, so that rays seldom run within faces that stand square on the surface.
 constexpr double kDirections[16][3] = {
-    {0.10, 0.06, 1.0},    {-0.88, 0.35, 0.03},  {0.35, 0.88, 0.05},  {0.62, -0.50, 0.30},
-    {-0.40, -0.85, 0.03}, {0.93, -0.30, 0.05},  {-0.55, 0.60, 0.30}, {0.70, 0.66, 0.03},
-    {-0.06, 0.10, 1.0},   {-0.69, -0.70, 0.05}, {0.21, -0.93, 0.10}, {-0.24, 0.92, 0.10},
+    {0.013, 0.009, 1.0},  {-0.06, 0.10, 1.0},   {-0.88, 0.35, 0.03}, {0.35, 0.88, 0.05},
+    {0.62, -0.50, 0.30},  {-0.40, -0.85, 0.03}, {0.93, -0.30, 0.05}, {-0.55, 0.60, 0.30},
+    {0.70, 0.66, 0.03},   {-0.69, -0.70, 0.05}, {0.21, -0.93, 0.10}, {-0.24, 0.92, 0.10},
     {0.50, 0.62, 0.30},   {-0.60, -0.55, 0.30}, {0.02, -0.99, 0.02}, {0.99, 0.09, 0.02}};
+constexpr std::uint32_t kEnoughBacks = 6;
 
 /// A unit vector square to a unit normal, from the axis along which the normal is smallest.
 Vec3 tangent_of(const Vec3& n) {
@@ -24,23 +25,26 @@ Vec3 tangent_of(const Vec3& n) {
 std::uint32_t hidden_samples(Intersector& intersector, std::span<const LatticePoint> samples, const Vec3& normal,
                              bool only_if_all) {
   const Vec3 tangent = tangent_of(normal), bitangent = cross(normal, tangent);
-  std::uint32_t hidden = 0;
-  for (std::uint32_t k = 0; k < samples.size(); ++k) hidden |= std::uint32_t{1} << k;
+  std::uint32_t backs[kMostHiddenSamples] = {};
+  std::uint32_t open = 0, hidden = 0;  // a bit a sample: not decided yet, decided
+  for (std::uint32_t k = 0; k < samples.size(); ++k) open |= std::uint32_t{1} << k;
   for (const double(&along)[3] : kDirections) {
     const LatticeVector direction = lattice_direction(along[0] * tangent + along[1] * bitangent + along[2] * normal);
     LatticeBox box;
     for (std::uint32_t k = 0; k < samples.size(); ++k) {
-      if ((hidden >> k & 1) != 0) box.include(samples[k]);
+      if ((open >> k & 1) != 0) box.include(samples[k]);
     }
     const Aim gathered = intersector.gather_along(box, direction);
     for (std::uint32_t k = 0; k < samples.size(); ++k) {
-      if ((hidden >> k & 1) == 0) continue;
+      const std::uint32_t bit = std::uint32_t{1} << k;
+      if ((open & bit) == 0) continue;
       const Hit hit = intersector.nearest(samples[k], direction, gathered);
-      if (hit.triangle != kNone && !hit.front) continue;
-      if (only_if_all) return 0;
-      hidden &= ~(std::uint32_t{1} << k);
+      if (hit.triangle != kNone && !hit.front) ++backs[k];
+      if (backs[k] == kEnoughBacks) hidden |= bit;
+      if (backs[k] == 0 || backs[k] == kEnoughBacks) open &= ~bit;
+      if (backs[k] == 0 && only_if_all) return 0;
     }
-    if (hidden == 0) return 0;
+    if (open == 0) break;
   }
   return hidden;
 }

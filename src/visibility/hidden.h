@@ -1,9 +1,11 @@
 // Whether samples are inside or under something (paper 2.1 has no such thing: deviation D4; design: direct light).
 //
-// A sample that sees backs all round is enclosed by them. Sixteen directions in four rings over the hemisphere, from
-// nearly along the normal to nearly along the surface, each found on the lattice; the first that meets a front or
-// nothing ends the search, so a sample in the open costs one ray mostly. What may be met in a direction is gathered
-// once for all samples of a sub-patch. Exact: each ray. Approximate: that sixteen stand for all directions.
+// A sample that sees backs is enclosed by them. Sixteen directions in four rings over the hemisphere, from nearly along
+// the normal to nearly along the surface, each found on the lattice. The first, next to the normal, must meet a back,
+// so a sample in the open costs one ray mostly. Of the others it is enough if some do: under furniture that stands at
+// a wall one sees that wall, and its skirting, from the front, in up to half of all directions; where all objects are
+// closed, no back is seen from anywhere else. What may be met in a direction is gathered once for all samples of a
+// sub-patch. Exact: each ray. Approximate: that sixteen stand for all directions.
 // Bytes: none of its own; it uses the intersector's list of a wide aim.
 #pragma once
 
@@ -15,8 +17,10 @@
 
 namespace shodo {
 
-/// Which of up to 32 samples are hidden, a bit each; `normal` is their surface's, unit. With `only_if_all` the search
-/// ends when one isn't, and the answer is 0. A wide aim of the intersector is no longer valid then.
+inline constexpr std::uint32_t kMostHiddenSamples = 16;
+
+/// Which of up to 16 samples are hidden, a bit each; `normal` is their surface's, unit. With `only_if_all` the search may
+/// end when one isn't, and the answer is 0 then. A wide aim of the intersector is no longer valid then.
 std::uint32_t hidden_samples(Intersector& intersector, std::span<const LatticePoint> samples, const Vec3& normal,
                              bool only_if_all);
 

@@ -1,9 +1,9 @@
 // Samples, point lights, patches, hidden samples, and the intersector's answers and counts.
 #include <gtest/gtest.h>
 
-#include "visibility/hidden.h"
 #include "scenes.h"
 #include "slow_twin.h"
+#include "visibility/hidden.h"
 
 namespace shodo {
 namespace {
@@ -257,6 +257,31 @@ TEST(Hidden, UnderABoxThatStandsOnAFloorAndInsideIt) {
       const LatticePoint p = sample_point(scene.scene, scene.geometry, floor, 0, point);
       EXPECT_EQ(hidden_samples(intersector, {&p, 1}, up, false), within(0) ? 1u : 0u) << x << ", " << y;
     }
+  }
+}
+
+// Furniture at a wall, without a back of its own: from inside one sees the wall's front, and a skirting's.
+TEST(Hidden, UnderABoxThatLeansOnAWallAndHasNoBack) {
+  HandMadeScene scene;
+  scene.box({0, 0, 0}, {4, 4, 3}, true);
+  scene.object();
+  scene.quad({0, 0, 0.1}, {4, 0, 0.1}, {4, 0.02, 0}, {0, 0.02, 0});  // skirting
+  scene.object();
+  scene.quad({1, 0, 1}, {2, 0, 1}, {2, 0.8, 1}, {1, 0.8, 1});  // top, front, two sides
+  scene.quad({1, 0.8, 0}, {1, 0.8, 1}, {2, 0.8, 1}, {2, 0.8, 0});
+  scene.quad({1, 0, 0}, {1, 0, 1}, {1, 0.8, 1}, {1, 0.8, 0});
+  scene.quad({2, 0, 0}, {2, 0.8, 0}, {2, 0.8, 1}, {2, 0, 1});
+  scene.place();
+  ASSERT_TRUE(scene.status.done());
+  Intersector intersector(scene.geometry);
+  Random random(9);
+  const std::uint32_t floor = 0;
+  for (int s = 0; s < 400; ++s) {
+    const double x = 0.5 + 2 * random.unit(), y = 0.05 + 1.5 * random.unit();
+    const auto within = [&](double margin) { return x > 1 + margin && x < 2 - margin && y < 0.8 - margin; };
+    if (within(-1e-3) != within(1e-3)) continue;
+    const LatticePoint p = sample_point(scene.scene, scene.geometry, floor, 0, Vec3{x, y, 0} - scene.scene.origin);
+    EXPECT_EQ(hidden_samples(intersector, {&p, 1}, {0, 0, 1}, false), within(0) ? 1u : 0u) << x << ", " << y;
   }
 }
 
