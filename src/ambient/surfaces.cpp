@@ -281,7 +281,8 @@ Status gather_surfaces(const Scene& scene, const Geometry& geometry, std::span<c
     surfaces.mesh_begin[k] = fill.position;
     surfaces.gathered = k + 1;
     const bool tree = tree_kind(scene, mesh, options.rules) != TreeKind::kNone;
-    const bool flat = tree || is_planar(scene, mesh, patch_of_mesh(surfaces, surfaces.mesh_at[k], 0).normal, surfaces.flat);
+    const Vec3 normal = patch_of_mesh(surfaces, surfaces.mesh_at[k], 0).normal;
+    const bool flat = tree || is_planar(scene, mesh, normal, surfaces.flat);
     surfaces.planar[k] = flat ? 1 : 0;
     gather_mesh(surfaces, direct, options.rules, k, fill);
     if (!surfaces.mesh_box.empty()) surfaces.mesh_box[k] = sample_box(surfaces, surfaces.mesh_begin[k], fill.position);

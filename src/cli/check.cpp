@@ -78,7 +78,8 @@ std::string plan_text(const MemoryPlan& plan) {
     for (std::size_t k = 0; k < kPlanStages; ++k) {
       stages += plan.stage[k] != 0 && part.in(k) ? static_cast<char>('1' + k) : ' ';
     }
-    text += "           " + right(grouped(part.bytes), 11) + "  " + stages + "  " + part.name + ": " + part.formula + "\n";
+    text += "           " + right(grouped(part.bytes), 11) + "  " + stages + "  ";
+    text += part.name + std::string(": ") + part.formula + "\n";
   }
   return text;
 }

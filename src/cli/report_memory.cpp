@@ -97,9 +97,9 @@ void add_memory_chapter(Document& document, const std::vector<MemoryCost>& costs
   }
   document.heading(2, "Less memory");
   document.paragraph(
-      "Budgets from the smallest that works on, each with the same picture, byte for byte; counted by make memory-cost. "
-      "Rows that don't fit are found again in each sweep. Before that, what can be found again gives up its memory: the "
-      "direct light of the sub-patches, then the triangles of the picture.");
+      "Budgets from the smallest that works on, each with the same picture, byte for byte; counted by make "
+      "memory-cost. Rows that don't fit are found again in each sweep. Before that, what can be found again gives up "
+      "its memory: geometry of patches and blocks, the direct light of the sub-patches, the triangles of the picture.");
   document.blocks.emplace_back(plot);
   for (const std::string& series : plot.groups) {
     document.heading(3, series);

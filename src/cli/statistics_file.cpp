@@ -139,7 +139,8 @@ std::string statistics_json(const Model& model, const std::string& scene, const 
   json.open("memory").add("budget", s.memory_budget).add("peak", s.memory_peak);
   const char* const stages[kMemoryStageCount] = {"load", "direct", "ambient", "map", "picture"};
   for (std::uint32_t k = 0; k < kMemoryStageCount; ++k) json.add(stages[k], s.stage_peak[k]);
-  json.add("lit_again", s.lit_again).add("geometry_again", s.geometry_again).add("placed_again", s.placed_again).close();
+  json.add("lit_again", s.lit_again).add("geometry_again", s.geometry_again);
+  json.add("placed_again", s.placed_again).close();
   json.open("seconds");
   for (std::uint32_t k = 0; k < kStageCount; ++k) {
     const Stage stage = static_cast<Stage>(k);

@@ -27,7 +27,8 @@ struct Both {
     EXPECT_TRUE(gather_surfaces(s, scene.geometry, scene.patches, scene.direct, options, arena, kept).done());
     EXPECT_EQ(arena.used() - before, surfaces_bytes(s, options, SurfacesKeep::kGeometry));
     before = arena.used();
-    EXPECT_TRUE(gather_surfaces(s, scene.geometry, {}, scene.direct, options, arena, found, SurfacesKeep::kNothing).done());
+    const SurfacesKeep nothing = SurfacesKeep::kNothing;
+    EXPECT_TRUE(gather_surfaces(s, scene.geometry, {}, scene.direct, options, arena, found, nothing).done());
     EXPECT_EQ(arena.used() - before, surfaces_bytes(s, options, SurfacesKeep::kNothing));
   }
 

@@ -92,11 +92,14 @@ __attribute__((destructor)) void finish() {
   const long peak = status_number("VmHWM:");
   char text[1024];
   int size = 0;
-  for (int call = 0; call < kCalls; ++call) {
-    size += snprintf(text + size, sizeof text - static_cast<size_t>(size), "%s %ld\n", kNames[call], g.count[call].load());
-  }
-  size += snprintf(text + size, sizeof text - static_cast<size_t>(size),
-                   "blocks %ld\ndescriptors %ld\nmaps %ld\npeak_kib %ld\n", g.blocks.load(), g.descriptors.load(), g.maps.load(), peak);
+  const auto add = [&](const char* name, long value) {
+    size += snprintf(text + size, sizeof text - static_cast<size_t>(size), "%s %ld\n", name, value);
+  };
+  for (int call = 0; call < kCalls; ++call) add(kNames[call], g.count[call].load());
+  add("blocks", g.blocks.load());
+  add("descriptors", g.descriptors.load());
+  add("maps", g.maps.load());
+  add("peak_kib", peak);
   const int file = next("open", &open)(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
   if (next("write", &write)(file, text, static_cast<size_t>(size)) != size) abort();
   next("close", &close)(file);

@@ -20,7 +20,8 @@ struct WatchedOutcome : Outcome {
 };
 
 /// `fault`: as SHODO_FAULT takes it; empty: none.
-inline WatchedOutcome watched_run(const Running::Words& words, const std::string& folder, const std::string& fault = "") {
+inline WatchedOutcome watched_run(const Running::Words& words, const std::string& folder,
+                                  const std::string& fault = "") {
   const std::string program = program_path();
   const std::string shim = program.substr(0, program.rfind('/') + 1) + "system_faults.so";
   const TestFolder scratch;

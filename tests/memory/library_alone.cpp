@@ -108,7 +108,8 @@ int main(int count, char** words) {
   const Counted none = count_calls({}, 0), three = count_calls({}, 3);
   const bool traces = none.calls >= 0;
   if (traces && three.calls != none.calls + 2 * 3) {
-    std::printf("failed: three system calls are counted as three, found %ld stops after %ld\n", three.calls, none.calls);
+    std::printf("failed: three system calls are counted as three, found %ld stops after %ld\n", three.calls,
+                none.calls);
     return 1;
   }
   int failures = 0;

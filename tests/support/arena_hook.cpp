@@ -27,7 +27,8 @@ bool ArenaHook::refuses_next() {
 
 // Arena::take_bytes and Arena::take_spare_bytes (const char*, std::size_t), std::size_t being unsigned long.
 extern "C" void* __real__ZN5shodo5Arena10take_bytesEPKcm(shodo::Arena* arena, const char* name, std::size_t bytes);
-extern "C" void* __real__ZN5shodo5Arena16take_spare_bytesEPKcm(shodo::Arena* arena, const char* name, std::size_t bytes);
+extern "C" void* __real__ZN5shodo5Arena16take_spare_bytesEPKcm(shodo::Arena* arena, const char* name,
+                                                               std::size_t bytes);
 
 namespace {
 
