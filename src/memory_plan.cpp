@@ -44,7 +44,7 @@ MemoryPlan plan_memory(const Model& model, bool picture) {
   const std::uint64_t blockers = Intersector::bytes(model.geometry, model.options.flags);
   std::uint64_t held = model.after_load + flags + direct_result_bytes(scene);
   plan.direct = held + blockers + Sources::bytes(scene);
-  plan.ambient = held + (scene.patch_count > 0 ? blockers : 0) + smallest_ambient_bytes(scene, model.options);
+  plan.ambient = held + (scene.patch_count > 0 ? blockers : 0) + smallest_ambient_bytes(scene, model.geometry, model.options);
   held += ambient_result_bytes(scene);
   plan.map = held + map_bytes(scene, model.options);
   held += map_result_bytes(scene);

@@ -5,6 +5,7 @@
 
 #include "scene/scene.h"
 #include "shodo/options.h"
+#include "visibility/geometry.h"
 
 namespace shodo {
 
@@ -16,6 +17,6 @@ std::uint64_t ambient_result_bytes(const Scene& scene);
 ///   10 n with double values) + the coarse correction, at most 23 KiB, n patches, c channels.
 /// Everything that the arena has beyond it goes to rows, and is given back at the end of the stage: what follows can
 /// use all but AmbientLight, so no reserve is kept for it.
-std::uint64_t smallest_ambient_bytes(const Scene& scene, const Options& options);
+std::uint64_t smallest_ambient_bytes(const Scene& scene, const Geometry& geometry, const Options& options);
 
 }  // namespace shodo
