@@ -13,6 +13,7 @@ constexpr double kOfDisc = 0.25;        // of the disc's form factor between pat
 constexpr double kOfDiscBlocks = 0.3;   // the same between blocks
 constexpr double kSeriesShare = 0.5;    // the part of REL that a series may use
 constexpr double kMostNearError = 0.05;
+constexpr double kMostRough = 5e-3;        // error of v beyond which the form factor is found as exactly as --tiers says
 constexpr double kDiscError = 0.2;      // of the disc's form factor, for the row's sum
 
 /// Of shapes that have no place on the lattice, in floating point.
@@ -109,7 +110,7 @@ Step BlockJudge::decide(const RowSide& side, std::uint32_t j) {
   pair.patches = !i_block && !j_block;
   const bool first = i_block && (!j_block || side.patch->longest_side >= s.patch(j).longest_side);
   pair.split = first ? Step::kSplitFirst : Step::kSplitSecond;
-  const double v = has_series ? series.value : series.most;
+  const double v = has_series ? series.value + series.error : series.most;
   const double power = worth.sent(node_) + worth.sent(j) + worth.uneven(node_) + worth.uneven(j);
   pair.whole = v * v * power;
   pair.slight = pair.whole <= worth.allowed();
@@ -119,9 +120,11 @@ Step BlockJudge::decide(const RowSide& side, std::uint32_t j) {
   } else if (!pair.slight) {
     if (!pair.patches && varies_too_much(pair)) return pair.split;
     pair.near = !within(series.error * series.error * power, 1 / kSeriesShare) &&
-                series.error > options_.tiers * series.most;
+                (pair.patches || series.error > options_.tiers * series.most);
     if (pair.near && !pair.patches) return pair.split;
   }
+  // However dark it is: rows are to sum to 1.
+  pair.near = pair.near || (has_series ? series.error : kDiscError * series.value) > kMostRough;
   return measure(side, pair) ? look(side, pair) : Step::kNothing;
 }
 
@@ -135,7 +138,7 @@ bool BlockJudge::measure(const RowSide& side, const Pair& pair) {
   if (pair.near || always) {
     double tolerance = 0;
     if (!always) {
-      tolerance = kSeriesShare * square_root(tools_.worth.allowed() / pair.whole);
+      tolerance = pair.whole > 0 ? kSeriesShare * square_root(tools_.worth.allowed() / pair.whole) : 1;
       if (tolerance > kMostNearError) tolerance = kMostNearError;
       if (tolerance < options_.tiers) tolerance = options_.tiers;
     }

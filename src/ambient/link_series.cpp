@@ -8,8 +8,9 @@ namespace {
 
 constexpr std::int32_t kOne = 1 << 14;
 constexpr std::int32_t kThirdOf2To16 = 21845;
+constexpr double kRounding = 0x1p-12;  // of heights and ratios, relative to the kernel with both cosines 1
 constexpr double kRoughly = 1.2;  // of close ends, what the disc lacks in the mean
-constexpr std::int32_t kFlat = 3;  // heights that rounding may make
+constexpr std::int32_t kFlat = 8;   // heights that rounding may make
 
 std::int32_t magnitude(std::int32_t x) { return x < 0 ? -x : x; }
 
@@ -235,10 +236,12 @@ LinkSeries Places::series(const PlacedSide& i, std::uint32_t j, std::uint32_t pl
   of_j.shift(a, b, by, i.normal);
   const std::int32_t extent_j = of_j.extent(mesh.kind);
   link.kind = LinkKind::kAway;
-  if (over_i + extent_j <= kFlat) return link;
+  if (over_i + extent_j < -kFlat) return link;
   of_i.shift(i.a, i.b, by, normal_j);
   const std::int32_t extent_i = of_i.extent(i.kind);
-  if (over_j + extent_i <= kFlat) return link;
+  if (over_j + extent_i < -kFlat) return link;
+  link.kind = LinkKind::kOdd;  // rounding doesn't tell
+  if (over_i + extent_j <= kFlat || over_j + extent_i <= kFlat) return link;
 
   const std::int32_t squared = product(way, way);
   const std::int32_t axes_i = product(of_i.a, of_i.a) + product(of_i.b, of_i.b);
@@ -271,7 +274,7 @@ LinkSeries Places::series(const PlacedSide& i, std::uint32_t j, std::uint32_t pl
   link.most = weights * scale / r2;
   link.value = mean > 0 ? link.most * (static_cast<double>(over_i * over_j) * static_cast<double>(mean)) / (r2 * kOne) : 0;
   const double q = static_cast<double>(w) * (4.0 / 3 / kOne);
-  link.error = kSeriesError * q * q * link.most;
+  link.error = (kSeriesError * q * q + kRounding) * link.most;
   link.vary_i = static_cast<double>(at_i.vary) * (1.0 / 3 / kOne);
   link.vary_j = static_cast<double>(at_j.vary) * (1.0 / 3 / kOne);
   return link;

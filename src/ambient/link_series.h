@@ -11,7 +11,8 @@
 // of the sum of the squares of all half axes over r^2.
 //
 // A triangle counts as the parallelogram that has its moments: with edges a and b from corner 0, half axes
-// (a - b / 2) / sqrt 6 and b / sqrt 8. Other quadrilaterals, and concave ones, have no place here (kOdd).
+// (a - b / 2) / sqrt 6 and b / sqrt 8. Other quadrilaterals, and concave ones, have no place here, nor have
+// pairs so near to each other's plane that rounding hides on which side they are (kOdd).
 // Bytes: 28 a node and 32 a mesh.
 #pragma once
 

@@ -125,7 +125,7 @@ std::uint64_t Sight::bytes(const Geometry& geometry, const Options& options) {
 
 Status Sight::take(Arena& arena, const Geometry& geometry, const Options& options) {
   geometry_ = &geometry;
-  lists_ = options.flags != FlagMode::kOff && facet_count(geometry) <= 0xffff;
+  lists_ = false;
   if (options.flags == FlagMode::kOff) return {};
   const std::size_t facets = facet_count(geometry);
   const bool taken = arena.take("blockers left to parts", kListWords, left_) &&
@@ -137,6 +137,7 @@ Status Sight::take(Arena& arena, const Geometry& geometry, const Options& option
 }
 
 void Sight::start(Intersector& intersector) {
+  lists_ = intersector.seeking() && intersector.facets().size() <= 0xffff;
   facets_ = intersector.facets();
   clusters_used_ = 0;
   bool open = false;
