@@ -123,8 +123,9 @@ SeriesSide series_over(const PatchShape& shape, const Vec3& way, const Vec3& oth
   return side;
 }
 
-constexpr double kMostSeries = 0.45;   // q
-constexpr double kSeriesError = 0.6;  // times q^2
+constexpr double kMostQ = 0.45;            // beyond that there is no series
+constexpr double kSeriesShareError = 0.6;  // times q^2
+constexpr double kCurved = 0.1;            // times q^2, of what the kernel varies
 
 }  // namespace
 
@@ -143,22 +144,22 @@ PairSeries series_between(const Surfaces& surfaces, const RowSide& i, std::uint3
   series.crossing = j_front == Facing::kCrossing || i_front == Facing::kCrossing;
   series.squared = length_squared(apart);
   const double sides = i.side_squared + other.longest_side * other.longest_side;
-  if (series.crossing || sides > 3 * kMostSeries * series.squared) return series;
+  if (series.crossing || sides > 3 * kMostQ * series.squared) return series;
   if (shape.outline == Outline::kConcave || i.shape->outline == Outline::kConcave) return series;
   series.found = true;
   const double over_squared = 1 / series.squared;
   const SeriesSide of_j = series_over(shape, apart, i.patch->normal, over_squared, 1 / over_i);
   const SeriesSide of_i = series_over(*i.shape, -apart, other.normal, over_squared, 1 / over_j);
-  series.vary_i = of_i.vary;
-  series.vary_j = of_j.vary;
   const double areas = i.patch->area * other.area * kInversePi;
   const double q = sides * over_squared * (1.0 / 3);
+  series.vary_i = of_i.vary + kCurved * q * q;
+  series.vary_j = of_j.vary + kCurved * q * q;
   const double kernel = areas * over_squared * over_squared * over_i * over_j;
   const bool triangular = shape.outline == Outline::kTriangle || i.shape->outline == Outline::kTriangle;
   const bool even = (shape.even & i.shape->even) != 0;
   series.geometric = triangular || !even ? areas * mean_kernel(i, row_side(surfaces, j), apart)
                                          : kernel * (1 + (of_i.mean + of_j.mean));
-  series.error = kSeriesError * q * q * areas * over_squared;
+  series.error = kSeriesShareError * q * q * areas * over_squared;
   return series;
 }
 

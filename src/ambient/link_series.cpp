@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::int32_t kOne = 1 << 14;
 constexpr std::int32_t kThirdOf2To16 = 21845;
+constexpr double kCurved = 0.1;  // times q^2: what ends right opposite each other vary all the same
 constexpr double kRounding = 0x1p-12;  // of heights and ratios, relative to the kernel with both cosines 1
 constexpr double kRoughly = 1.2;  // of close ends, what the disc lacks in the mean
 constexpr std::int32_t kFlat = 8;   // heights that rounding may make
@@ -275,8 +276,9 @@ LinkSeries Places::series(const PlacedSide& i, std::uint32_t j, std::uint32_t pl
   link.value = mean > 0 ? link.most * (static_cast<double>(over_i * over_j) * static_cast<double>(mean)) / (r2 * kOne) : 0;
   const double q = static_cast<double>(w) * (4.0 / 3 / kOne);
   link.error = (kSeriesError * q * q + kRounding) * link.most;
-  link.vary_i = static_cast<double>(at_i.vary) * (1.0 / 3 / kOne);
-  link.vary_j = static_cast<double>(at_j.vary) * (1.0 / 3 / kOne);
+  const double curved = kCurved * q * q;
+  link.vary_i = static_cast<double>(at_i.vary) * (1.0 / 3 / kOne) + curved;
+  link.vary_j = static_cast<double>(at_j.vary) * (1.0 / 3 / kOne) + curved;
   return link;
 }
 
