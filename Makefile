@@ -1,5 +1,5 @@
-# shodo: `make` builds build/shodo. Other targets: rooms, report, test, check-same-bytes, workstation, install,
-# install-needs, clean.
+# shodo: `make` builds build/shodo. Other targets: rooms, report, test, check-same-bytes, workstation, scaling,
+# install, install-needs, clean.
 #
 # Settings, on the command line of make:
 #   CXX=clang++ OPT=-O0   another compiler or optimisation; what was built with other flags is built again
@@ -90,6 +90,10 @@ install: $(BUILD)/shodo
 workstation:
 	@sh tools/workstation $(WORKSTATION_OPTIONS)
 
+# Cost against size with blocks: the table, fitted exponents, and out/scaling.csv.
+scaling: $(BUILD)/shodo
+	@sh tools/scaling
+
 install-needs:
 	sh tools/install-needs test
 
@@ -97,7 +101,7 @@ clean:
 	rm -rf $(BUILD) $(OUT)
 
 FORCE:
-.PHONY: all rooms report test check-same-bytes workstation install install-needs clean FORCE
+.PHONY: all rooms report test check-same-bytes workstation scaling install install-needs clean FORCE
 .SECONDARY:
 
 -include $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(TEST_OBJECTS:.o=.d)
