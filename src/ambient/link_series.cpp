@@ -109,7 +109,8 @@ MeshPlace place_mesh(const Surfaces& s, std::uint32_t k) {
   const PatchShape shape = shape_of(patch_piece(*s.scene, mesh, 0));
   const Vec3& normal = s.patches[mesh.first_patch].normal;
   const bool triangle = mesh.kind == MeshKind::kTriangle;
-  if (!triangle && (shape_count(*s.scene, mesh) != 1 || shape.outline != Outline::kQuad || shape.even == 0)) return place;
+  const bool parallelogram = shape_count(*s.scene, mesh) == 1 && shape.outline == Outline::kQuad && shape.even != 0;
+  if (!triangle && !parallelogram) return place;
   if (s.planar[k] == 0 || mesh.nu > 0xffff || mesh.nv > 0xffff || first == s.mesh_begin[k + 1]) return place;
   place.kind = triangle ? PlaceKind::kTriangle : PlaceKind::kQuad;
   const double steps = 16 * s.geometry->lattice.steps_per_unit;
@@ -125,7 +126,8 @@ MeshPlace place_mesh(const Surfaces& s, std::uint32_t k) {
 
 std::uint64_t Places::bytes(const Scene& scene, const Rules& rules) {
   if (!rules.blocks) return 0;
-  return (sizeof(NodePlace) * node_count(scene, rules) + 7) / 8 * 8 + (sizeof(MeshPlace) * scene.meshes.size() + 7) / 8 * 8;
+  return (sizeof(NodePlace) * node_count(scene, rules) + 7) / 8 * 8 +
+         (sizeof(MeshPlace) * scene.meshes.size() + 7) / 8 * 8;
 }
 
 Status Places::take(Arena& arena, const Surfaces& s, const Rules& rules) {
@@ -273,7 +275,8 @@ LinkSeries Places::series(const PlacedSide& i, std::uint32_t j, std::uint32_t pl
   const std::int32_t mean = kOne + (((at_i.mean + at_j.mean - 2 * w) * kThirdOf2To16) >> 16);
   const double r2 = static_cast<double>(squared);
   link.most = weights * scale / r2;
-  link.value = mean > 0 ? link.most * (static_cast<double>(over_i * over_j) * static_cast<double>(mean)) / (r2 * kOne) : 0;
+  const double cosines = static_cast<double>(over_i * over_j) * static_cast<double>(mean) / (r2 * kOne);
+  link.value = mean > 0 ? link.most * cosines : 0;
   const double q = static_cast<double>(w) * (4.0 / 3 / kOne);
   link.error = (kSeriesError * q * q + kRounding) * link.most;
   const double curved = kCurved * q * q;

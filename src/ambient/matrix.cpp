@@ -171,7 +171,8 @@ UpperSums add_rows(FirstPass& pass, std::uint32_t i, const MeshWalk& at_i, RowCu
       row = earlier[g].row(matrix, uncounted, i);
     } else {
       RowWriter writer(matrix.row_words, matrix.doubles());
-      compute_row(matrix.surfaces, matrix.sparsity, matrix.walk, matrix.tools, i, g, *matrix.options, intersector, writer, &errors);
+      compute_row(matrix.surfaces, matrix.sparsity, matrix.walk, matrix.tools, i, g, *matrix.options,
+                  intersector, writer, &errors);
       const std::span<const std::uint16_t> made = writer.finish();
       matrix.stores[g].keep(made);
       row = made.data();
