@@ -13,7 +13,7 @@ constexpr double kOfDisc = 0.25;        // of the disc's form factor between pat
 constexpr double kOfDiscBlocks = 0.3;   // the same between blocks
 constexpr double kSeriesShare = 0.5;    // the part of REL that a series may use
 constexpr double kMostNearError = 0.05;
-constexpr double kMostRough = 5e-3;        // error of v beyond which the form factor is found as exactly as --tiers says
+constexpr double kMostRough = 5e-3;     // error of v beyond which geometry is as exact as --tiers says
 constexpr double kDiscError = 0.2;      // of the disc's form factor, for the row's sum
 
 /// Of shapes that have no place on the lattice, in floating point.
@@ -180,8 +180,8 @@ void BlockJudge::shoot(Shots& shots, std::uint32_t k, std::uint32_t l) {
   if (!tools_.sight.blocked(shots.at_i[k], shots.at_j[l], shots.link, intersector_)) ++shots.free;
 }
 
-/// The visible fraction, or the order to split. Segment (k, k ^ m ^ turn) is the k-th of round m: each round meets every
-/// sample of both ends once. `turn` differs from pair to pair, so that one segment a pair isn't always the same corner.
+/// The visible fraction, or the order to split. Segment (k, k ^ m ^ turn) is the k-th of round m: each round meets
+/// every sample of both ends once. `turn` differs from pair to pair, so that one segment a pair isn't always the same corner.
 Step BlockJudge::look(const RowSide& side, const Pair& pair) {
   const std::uint32_t j = pair.j, points = surfaces_.cached_points, last = points - 1;
   const bool by_sixteen = within(pair.whole, kOfSixteen), full = pair.patches && !by_sixteen;

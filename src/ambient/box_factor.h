@@ -1,9 +1,9 @@
 // The exchange between two rectangles whose sides run along the axes, in closed form (paper 2.2; Howell's catalogue
 // C-13 and C-15; Ehlert and Smith 1993).
 //
-// Most near pairs in rooms are of this kind: 16 logarithms and 16 or 32 arctangents instead of contour integrals from 25
-// points or more. Parallel ones with the distance z, and u, v running over the four differences of their bounds:
-//     2 pi G = sum of +-P,   P = v sqrt(u^2 + z^2) atan(v / sqrt(u^2 + z^2)) + u sqrt(v^2 + z^2) atan(u / sqrt(v^2 + z^2))
+// Most near pairs in rooms are of this kind: 16 logarithms and 16 or 32 arctangents instead of contour integrals from
+// 25 points or more. Parallel ones with the distance z, and u, v running over the four differences of their bounds:
+//     2 pi G = sum of +-P,   P = v a atan(v / a) + u b atan(u / b), a^2 = u^2 + z^2, b^2 = v^2 + z^2,
 //                                - z^2 / 2 ln(u^2 + v^2 + z^2)
 // Square to each other, x and z their bounds over the other's plane (what is behind it is cut off), v the differences
 // of their bounds along the common direction, c^2 = x^2 + z^2:

@@ -27,7 +27,7 @@ struct RowErrors {
 
 /// Row i of a generation (ambient/sparsity.h) into `writer`; `errors` may be null.
 void compute_row(const Surfaces& surfaces, const Sparsity& sparsity, LinkWalk& walk, BlockTools& tools,
-                 std::uint32_t i, std::uint8_t generation, const Options& options, Intersector& intersector, RowWriter& writer,
-                 RowErrors* errors);
+                 std::uint32_t i, std::uint8_t generation, const Options& options, Intersector& intersector,
+                 RowWriter& writer, RowErrors* errors);
 
 }  // namespace shodo

@@ -3,7 +3,8 @@
 // The kernel h_i h_j / r^4 between two points (h: heights over each other's plane) is developed to second order about
 // the centres, along the half axes of both patches. With u = (axis . way) / r^2, p = the height that the axis climbs,
 // over h, and w = axis^2 / r^2, one axis changes the kernel's mean by (12 u^2 - 4 u p - 2 w) / 3 of it, and the mean
-// square of its variation is (p - 4 u)^2 / 3, and about 0.1 q^2 more from the second order. The first makes the exchange, the second tells which end to split.
+// square of its variation is (p - 4 u)^2 / 3, and about 0.1 q^2 more from the second order.
+// The first makes the exchange, the second tells which end to split.
 //
 // Everything is a 32-bit integer: coordinates are lattice steps shifted right until 14 bits hold them, ratios have 14
 // binary places. A floating-point operation costs the paper's workstation nine integer ones. Heights have so an error
@@ -26,7 +27,7 @@
 namespace shodo {
 
 inline constexpr double kMostSeries = 0.5;    // the largest q for which there is a series
-inline constexpr double kSeriesError = 0.25;  // times q^2
+inline constexpr double kSeriesError = 0.5;   // times q^2
 
 enum class PlaceKind : std::uint8_t { kOdd, kQuad, kTriangle };
 

@@ -202,8 +202,8 @@ const std::uint16_t* RowCursor::row(Matrix& matrix, Intersector& uncounted, std:
     return row;
   }
   RowWriter writer(matrix.row_words, matrix.doubles());
-  compute_row(matrix.surfaces, matrix.sparsity, matrix.walk, matrix.tools, i, generation_, *matrix.options, uncounted, writer,
-              nullptr);
+  compute_row(matrix.surfaces, matrix.sparsity, matrix.walk, matrix.tools, i, generation_, *matrix.options,
+              uncounted, writer, nullptr);
   return writer.finish().data();
 }
 

@@ -68,8 +68,7 @@ std::int32_t longest_side(const LatticeBox& box) {
 /// Calls visit(box) for each facet of a scene, without any structure; stops at true.
 template <class Visit>
 bool any_facet(const Geometry& geometry, Visit visit) {
-  for (const std::span<const PolygonTriangles> polygons : {std::span<const PolygonTriangles>(geometry.cells),
-                                                           std::span<const PolygonTriangles>(geometry.light_triangles)}) {
+  for (const std::span<PolygonTriangles> polygons : {geometry.cells, geometry.light_triangles}) {
     for (const PolygonTriangles& polygon : polygons) {
       for (std::uint32_t k = 0; k < polygon.count; k += 2) {
         bool tilted = false;
@@ -111,7 +110,7 @@ void LeanShaft::add_lines(const LatticeBox& a, const LatticeBox& b, std::uint32_
     line.normal_v = (du > 0) == high_v ? du : -du;
     line.u = u;
     line.v = v;
-    // A box's bounds are rounded down, and flat ones may be a step too small: up to a step and a lattice step either way.
+    // A box's bounds are rounded down, and flat ones may be a lattice step too small.
     const std::int32_t slack = (dv < 0 ? -dv : dv) + (du < 0 ? -du : du);
     line.limit = line.normal_u * au + line.normal_v * av + 2 * slack;
   }
@@ -192,7 +191,9 @@ const std::uint16_t* Sight::inherited(std::uint32_t j, std::uint32_t& count) {
     const auto node_at = [&](std::uint32_t at) { return left_[at] | std::uint32_t{left_[at + 1]} << 16; };
     // Lists ascend by the nodes whose they are.
     for (std::uint32_t at = level.read; at < level.last && node_at(at) <= j; at += 4u + left_[at + 3]) level.read = at;
-    if (level.read == level.last || node_at(level.read) > j || j >= node_at(level.read) + left_[level.read + 2]) continue;
+    if (level.read == level.last) continue;
+    const std::uint32_t first = node_at(level.read);
+    if (first > j || j >= first + left_[level.read + 2]) continue;
     count = left_[level.read + 3];
     return left_.data() + level.read + 4;
   }

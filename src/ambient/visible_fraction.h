@@ -28,7 +28,8 @@ struct VisibleFraction {
   double variance = 0;  // estimated
 };
 
-/// `sight` has the list of the pair, or is null. Then `wide` is aimed between boxes that hold the cached samples of i and of j (ambient/surfaces.h).
+/// `sight` has the list of the pair, or is null. Then `wide` is aimed between
+/// boxes that hold the cached samples of i and of j (ambient/surfaces.h).
 VisibleFraction visible_fraction(const Surfaces& surfaces, std::uint32_t i, std::uint32_t j, bool crossing,
                                  const Options& options, Intersector& intersector, Sight* sight, const Aim& wide,
                                  DenseSamples& dense_i);
