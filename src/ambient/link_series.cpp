@@ -230,7 +230,7 @@ LinkSeries Places::series(const PlacedSide& i, std::uint32_t j, std::uint32_t pl
     way[k] = node.centre[k] - i.centre[k];
     bits |= static_cast<std::uint32_t>(magnitude(way[k]));
   }
-  const int width = std::bit_width(bits), by = width > 14 ? width - 14 : 0;
+  const int width = static_cast<int>(std::bit_width(bits)), by = width > 14 ? width - 14 : 0;
   for (std::int32_t& w : way) w >>= by;
   const std::int32_t normal_j[3] = {mesh.normal[0], mesh.normal[1], mesh.normal[2]};
   // Heights of each centre over the other's plane; the corners' besides.
