@@ -1,5 +1,5 @@
 # shodo: `make` builds build/shodo. Other targets: rooms, report, test, check-same-bytes, machines, workstation,
-# memory-cost, check-budgets, install, install-needs, clean.
+# scaling, memory-cost, check-budgets, install, install-needs, clean.
 #
 # Settings, on the command line of make:
 #   CXX=clang++ OPT=-O0   another compiler or optimisation; what was built with other flags is built again
@@ -118,6 +118,10 @@ machines: $(BUILD)/shodo
 	-@sh tools/install-needs machines
 	@SHODO_PROGRAM=$(BUILD)/shodo sh tools/machines $(MACHINES)
 
+# Cost against size with blocks: the table, fitted exponents, and out/scaling.csv.
+scaling: $(BUILD)/shodo
+	@sh tools/scaling
+
 install-needs:
 	sh tools/install-needs test
 
@@ -125,8 +129,8 @@ clean:
 	rm -rf $(BUILD) $(OUT)
 
 FORCE:
-.PHONY: all rooms report test check-same-bytes machines workstation memory-cost check-budgets install install-needs \
-  clean FORCE
+.PHONY: all rooms report test check-same-bytes machines workstation scaling memory-cost check-budgets install \
+  install-needs clean FORCE
 .SECONDARY:
 
 -include $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(TEST_OBJECTS:.o=.d)

@@ -47,7 +47,7 @@ void plan_light(const Model& model, MemoryPlan& plan) {
            kDirect | kAgain);
   const std::uint64_t result = ambient_result_bytes(scene);
   const std::uint64_t surfaces = surfaces_bytes(scene, options, SurfacesKeep::kNothing);
-  const std::uint64_t ambient = smallest_ambient_bytes(scene, options, SurfacesKeep::kNothing);
+  const std::uint64_t ambient = smallest_ambient_bytes(scene, model.geometry, options, SurfacesKeep::kNothing);
   plan.add("ambient light of the patches", "8 c n", result, kAmbient | kAgain | kMap);
   plan.add("surfaces", "12 a node + 40 blocks + 33 meshes + 3,712; their geometry is found again", surfaces, kAmbient);
   plan.add("solution", "16 c + 8 a node + one row + lists of links + the coarse correction; rows: what is left",
@@ -112,7 +112,7 @@ bool keeps_geometry(const Model& model) {
   const std::uint64_t blockers = Intersector::bytes(model.geometry, options.flags);
   const std::uint64_t patches = model.after_patches + flags + direct_patch_bytes(scene);
   const std::uint64_t solved = patches + ambient_result_bytes(scene) + direct_sub_patch_bytes(scene);
-  std::uint64_t most = patches + blockers + smallest_ambient_bytes(scene, options, SurfacesKeep::kGeometry) +
+  std::uint64_t most = patches + blockers + smallest_ambient_bytes(scene, model.geometry, options, SurfacesKeep::kGeometry) +
                        expected_row_bytes(scene, options);
   most = larger(most, solved + blockers + Sources::bytes(scene));
   most = larger(most, solved + map_bytes(scene, options));

@@ -71,6 +71,7 @@ Status light_ambiently(const Scene& scene, const Geometry& geometry, std::span<c
   if (!status.done()) return status;
   const IntersectorScratch seeking(intersector);
   if (!intersector.start(arena)) return arena.refused();
+  if (options.rules.blocks) matrix.tools.sight.start(intersector);
   return solve_in_rounds(direct, intersector, progress, matrix, solver, statistics);
 }
 
@@ -78,10 +79,11 @@ std::uint64_t ambient_result_bytes(const Scene& scene) {
   return 8 * std::uint64_t{scene.patch_count} * scene.channels;
 }
 
-std::uint64_t smallest_ambient_bytes(const Scene& scene, const Options& options, SurfacesKeep keep) {
+std::uint64_t smallest_ambient_bytes(const Scene& scene, const Geometry& geometry, const Options& options,
+                                     SurfacesKeep keep) {
   const std::uint64_t result = ambient_result_bytes(scene);
   const std::uint64_t before_rows = surfaces_bytes(scene, options, keep) + solver_bytes(scene, options);
-  return result + before_rows + (scene.patch_count > 0 ? matrix_bytes(scene, options) : 0);
+  return result + before_rows + (scene.patch_count > 0 ? matrix_bytes(scene, geometry, options) : 0);
 }
 
 std::uint64_t expected_row_bytes(const Scene& scene, const Options& options) {

@@ -6,6 +6,7 @@
 #include "ambient/surfaces.h"
 #include "scene/scene.h"
 #include "shodo/options.h"
+#include "visibility/geometry.h"
 
 namespace shodo {
 
@@ -18,7 +19,7 @@ std::uint64_t ambient_result_bytes(const Scene& scene);
 /// n patches, c channels; with blocks n counts nodes in all but the result.
 /// Everything that the arena has beyond it goes to rows, and is given back at the end of the stage: what follows can
 /// use all but AmbientLight, so no reserve is kept for it.
-std::uint64_t smallest_ambient_bytes(const Scene& scene, const Options& options,
+std::uint64_t smallest_ambient_bytes(const Scene& scene, const Geometry& geometry, const Options& options,
                                      SurfacesKeep keep = SurfacesKeep::kGeometry);
 
 /// What rows are expected to take, to judge whether geometry should make room for them; 0: no guess. Blocks have some 30

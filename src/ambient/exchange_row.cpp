@@ -20,11 +20,16 @@ void note_errors(const PairExchange& pair, const VisibleFraction& visible, doubl
 }
 
 struct RowContext {
+  RowContext(const Surfaces& s, const Options& o, Intersector& x, const RowSide& i)
+      : surfaces(s), options(o), intersector(x), side(i), root_area(s.root_area[i.position]) {
+    const LatticePoint* sample = s.samples(i.position);
+    for (std::uint32_t k = 0; k < s.cached_points; ++k) box.include(sample[k]);
+  }
+
   const Surfaces& surfaces;
   const Options& options;
   Intersector& intersector;
-  RowErrors* errors;
-  RowSide side;
+  const RowSide& side;
   double root_area;
   DenseSamples dense;
   LatticeBox box = {};          // around i's cached samples
@@ -44,38 +49,54 @@ const Aim& mesh_aim(RowContext& row) {
   return row.aim;
 }
 
-void add_pair(RowContext& row, std::uint32_t j, RowWriter& writer) {
-  const double root_j = row.surfaces.root_area[j];
-  if (!(root_j > 0)) return;
-  const PairExchange pair = exchange_between(row.surfaces, row.side, j, row.options.tiers);
-  if (!(pair.geometric > 0)) return;
-  if (row.errors != nullptr) ++row.errors->computed;
-  const std::uint32_t i = row.side.position;
-  const VisibleFraction visible =
-      visible_fraction(row.surfaces, i, j, pair.crossing, row.options, row.intersector, mesh_aim(row), row.dense);
-  if (row.errors != nullptr) {
-    note_errors(pair, visible, row.root_area * row.root_area, root_j * root_j, i, j, *row.errors);
+/// Writes an entry, and notes its errors if they are asked for.
+void put_link(const Surfaces& surfaces, std::uint32_t i, std::uint32_t j, const PairExchange& pair,
+              const VisibleFraction& visible, RowWriter& writer, RowErrors* errors) {
+  const double root_i = surfaces.root_area[i], root_j = surfaces.root_area[j];
+  if (errors != nullptr) {
+    ++errors->computed;
+    note_errors(pair, visible, root_i * root_i, root_j * root_j, i, j, *errors);
   }
-  const double value = pair.geometric * visible.value / (row.root_area * root_j);
+  const double value = pair.geometric * visible.value / (root_i * root_j);
   if (value > 0) writer.add(j, value < 1 ? value : 1);
+}
+
+void add_pair(RowContext& row, std::uint32_t j, RowWriter& writer, RowErrors* errors) {
+  const Surfaces& surfaces = row.surfaces;
+  while (j >= surfaces.mesh_begin[row.place + 1]) ++row.place;  // nodes ascend
+  const PairExchange pair = exchange_between(surfaces, row.side, j, row.options.tiers);
+  if (!(pair.geometric > 0)) return;
+  const VisibleFraction visible =
+      visible_fraction(surfaces, row.side.position, j, pair.crossing, row.options, row.intersector, nullptr,
+                       mesh_aim(row), row.dense);
+  put_link(surfaces, row.side.position, j, pair, visible, writer, errors);
 }
 
 }  // namespace
 
-void compute_row(const Surfaces& surfaces, const Sparsity& sparsity, LinkWalk& walk, std::uint32_t i,
-                 std::uint8_t generation, const Options& options, Intersector& intersector, RowWriter& writer,
-                 RowErrors* errors) {
+void compute_row(const Surfaces& surfaces, const Sparsity& sparsity, LinkWalk& walk, BlockTools& tools,
+                 std::uint32_t i, std::uint8_t generation, const Options& options, Intersector& intersector,
+                 RowWriter& writer, RowErrors* errors) {
   writer.start(i);
   if (!(surfaces.root_area[i] > 0)) return;
   NodeGeometry own;
-  RowContext row{surfaces, options, intersector, errors, row_side(surfaces, i, own), surfaces.root_area[i], {}};
-  const LatticePoint* const samples = surfaces.samples(i);
-  for (std::uint32_t k = 0; k < surfaces.cached_points; ++k) row.box.include(samples[k]);
-  walk.visit(row.side, [&](std::uint32_t j) {
-    if (sparsity.generation(i, j) != generation) return;
-    while (j >= surfaces.mesh_begin[row.place + 1]) ++row.place;  // nodes ascend
-    add_pair(row, j, writer);
-  });
+  const RowSide side = row_side(surfaces, i, own);
+  if (options.rules.blocks) {
+    BlockJudge judge(surfaces, options, tools, intersector);
+    walk.visit(
+        side, [&](const RowSide& from, std::uint32_t j) { return judge.judge(from, j); },
+        [&](std::uint32_t j) {
+          if (sparsity.generation(i, j) != generation) return;
+          put_link(surfaces, i, j, judge.found().pair, judge.found().visible, writer, errors);
+        });
+    return;
+  }
+  RowContext row(surfaces, options, intersector, side);
+  walk.visit(
+      side, [&](const RowSide& from, std::uint32_t j) { return walk.judge(from.position, j); },
+      [&](std::uint32_t j) {
+        if (sparsity.generation(i, j) == generation) add_pair(row, j, writer, errors);
+      });
 }
 
 }  // namespace shodo

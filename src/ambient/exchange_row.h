@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "ambient/block_link.h"
 #include "ambient/link_walk.h"
 #include "ambient/row_store.h"
 #include "ambient/sparsity.h"
@@ -25,8 +26,8 @@ struct RowErrors {
 };
 
 /// Row i of a generation (ambient/sparsity.h) into `writer`; `errors` may be null.
-void compute_row(const Surfaces& surfaces, const Sparsity& sparsity, LinkWalk& walk, std::uint32_t i,
-                 std::uint8_t generation, const Options& options, Intersector& intersector, RowWriter& writer,
-                 RowErrors* errors);
+void compute_row(const Surfaces& surfaces, const Sparsity& sparsity, LinkWalk& walk, BlockTools& tools,
+                 std::uint32_t i, std::uint8_t generation, const Options& options, Intersector& intersector,
+                 RowWriter& writer, RowErrors* errors);
 
 }  // namespace shodo

@@ -1,5 +1,6 @@
 #include "ambient/form_factor.h"
 
+#include "ambient/box_factor.h"
 #include "ambient/near_factor.h"
 
 namespace shodo {
@@ -8,6 +9,7 @@ namespace {
 
 constexpr double kMiddleError = 0.25;           // times q^2
 constexpr double kMiddleErrorTriangle = 0.04;  // times q^(3/2)
+constexpr double kClosedError = 1e-8;  // relative
 constexpr double kEqual = 1e-9;  // areas and heights nearer than this count as equal
 
 enum class Facing { kAway, kFully, kCrossing };
@@ -69,6 +71,9 @@ PairExchange near_pair(const Surfaces& surfaces, const RowSide& i, std::uint32_t
   const Patch& other = surfaces.patch(j);
   const double least = i.patch->area < other.area ? i.patch->area : other.area;
   const double most = unshaded < least ? unshaded : least;  // G can't be larger, nor need its error be
+  const double closed = box_exchange(axis_rectangle(*i.patch, *i.shape, surfaces.flat),
+                                     axis_rectangle(other, surfaces.shape(j), surfaces.flat));
+  if (closed >= 0) return {closed < least ? closed : least, kClosedError * closed, crossing};
   const bool first = looks_at_first(*i.patch, other, over_j, over_i);
   const NearFactor factor = near_exchange(surfaces, i.position, j, first, tolerance * most, crossing);
   return {factor.exchange < least ? factor.exchange : least, factor.error, crossing};
@@ -100,6 +105,71 @@ RowSide row_side(const Surfaces& surfaces, std::uint32_t position) {
     side.own[k] = twist * (set[k].x * set[k].y);
   }
   return side;
+}
+
+namespace {
+
+/// Mean squares and means of a kernel's series over one side.
+struct SeriesSide {
+  double mean = 0, vary = 0;
+};
+
+/// `way`: from the other side to this; h: this side's height over the other's plane; 1 / r^2, 1 / h.
+SeriesSide series_over(const PatchShape& shape, const Vec3& way, const Vec3& other_normal, double over_squared,
+                       double over_height) {
+  SeriesSide side;
+  double g[2];
+  int k = 0;
+  for (const Vec3* axis : {&shape.a, &shape.b}) {
+    const double u = dot(way, *axis) * over_squared, p = dot(other_normal, *axis) * over_height;
+    const double w = dot(*axis, *axis) * over_squared;
+    g[k++] = p - 4 * u;
+    side.mean += 12 * u * u - 2 * w - 4 * u * p;
+  }
+  side.mean *= 1.0 / 3;
+  side.vary = shape.outline == Outline::kTriangle ? (g[0] * g[0] + g[1] * g[1] - g[0] * g[1]) * (1.0 / 18)
+                                                  : (g[0] * g[0] + g[1] * g[1]) * (1.0 / 3);
+  return side;
+}
+
+constexpr double kMostQ = 0.45;            // beyond that there is no series
+constexpr double kSeriesShareError = 0.6;  // times q^2
+constexpr double kCurved = 0.1;            // times q^2, of what the kernel varies
+
+}  // namespace
+
+PairSeries series_between(const Surfaces& surfaces, const RowSide& i, std::uint32_t j) {
+  PairSeries series;
+  const Patch& other = surfaces.patch(j);
+  const PatchShape& shape = surfaces.shape(j);
+  const Vec3 apart = other.centre - i.patch->centre;
+  const double over_i = dot(i.patch->normal, apart), over_j = -dot(other.normal, apart);
+  const Facing j_front = facing(shape, other.longest_side, over_i, i.patch->normal, surfaces.flat);
+  series.away = j_front == Facing::kAway;
+  if (series.away) return series;
+  const Facing i_front = facing(*i.shape, i.patch->longest_side, over_j, other.normal, surfaces.flat);
+  series.away = i_front == Facing::kAway;
+  if (series.away) return series;
+  series.crossing = j_front == Facing::kCrossing || i_front == Facing::kCrossing;
+  series.squared = length_squared(apart);
+  const double sides = i.side_squared + other.longest_side * other.longest_side;
+  if (series.crossing || sides > 3 * kMostQ * series.squared) return series;
+  if (shape.outline == Outline::kConcave || i.shape->outline == Outline::kConcave) return series;
+  series.found = true;
+  const double over_squared = 1 / series.squared;
+  const SeriesSide of_j = series_over(shape, apart, i.patch->normal, over_squared, 1 / over_i);
+  const SeriesSide of_i = series_over(*i.shape, -apart, other.normal, over_squared, 1 / over_j);
+  const double areas = i.patch->area * other.area * kInversePi;
+  const double q = sides * over_squared * (1.0 / 3);
+  series.vary_i = of_i.vary + kCurved * q * q;
+  series.vary_j = of_j.vary + kCurved * q * q;
+  const double kernel = areas * over_squared * over_squared * over_i * over_j;
+  const bool triangular = shape.outline == Outline::kTriangle || i.shape->outline == Outline::kTriangle;
+  const bool even = (shape.even & i.shape->even) != 0;
+  series.geometric = triangular || !even ? areas * mean_kernel(i, row_side(surfaces, j), apart)
+                                         : kernel * (1 + (of_i.mean + of_j.mean));
+  series.error = kSeriesShareError * q * q * areas * over_squared;
+  return series;
 }
 
 PairExchange exchange_between(const Surfaces& surfaces, const RowSide& i, std::uint32_t j, double tolerance) {

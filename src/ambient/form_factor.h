@@ -45,6 +45,19 @@ struct PairExchange {
   bool crossing = false;  // a patch crosses the other's plane: some samples may not see each other's front
 };
 
+/// A link as a series of second order about the centres.
+struct PairSeries {
+  bool away = false;        // they don't see each other's front
+  bool crossing = false;
+  bool found = false;       // else too near, or of shapes that have no series
+  double squared = 0;       // of the distance of the centres
+  double geometric = 0;
+  double error = 0;         // of it, estimated
+  double vary_i = 0, vary_j = 0;  // mean squares of how the kernel varies over i, and over j, relative
+};
+
+PairSeries series_between(const Surfaces& surfaces, const RowSide& i, std::uint32_t j);
+
 /// `tolerance` of A_i A_j / (pi d^2); 0: near tier always. j's position is above i's.
 PairExchange exchange_between(const Surfaces& surfaces, const RowSide& i, std::uint32_t j, double tolerance);
 

@@ -13,8 +13,6 @@ double diameter_squared(const PatchShape& shape, double longest_side) {
   return one > other ? one : other;
 }
 
-double at_most_one(double x) { return x < 1 ? x : 1; }
-
 }  // namespace
 
 std::uint64_t LinkWalk::bytes(const Scene& scene, const Options& options) {
@@ -24,15 +22,8 @@ std::uint64_t LinkWalk::bytes(const Scene& scene, const Options& options) {
 Status LinkWalk::take(Arena& arena, const Surfaces& surfaces, const Sparsity& sparsity, const Options& options) {
   surfaces_ = &surfaces;
   sparsity_ = &sparsity;
-  rule3_ = options.rules.rule3;
   const double diameters = options.rules.rule3_diameters > 0 ? options.rules.rule3_diameters : kRule3Diameters;
   diameters_squared_ = diameters * diameters;
-  error_ = options.rules.blocks_error > 0 ? options.rules.blocks_error : kBlocksError;
-  double area = 0;
-  for (std::uint32_t node = 0; node < surfaces.size(); ++node) {
-    if (!surfaces.is_block(node)) area += surfaces.root_area[node] * surfaces.root_area[node];
-  }
-  inverse_area_ = area > 0 ? 1 / area : 0;
   const std::size_t words = std::size_t{surfaces.scene->patch_count} * block_depth(*surfaces.scene, options.rules);
   return arena.take("links left", words, left_) ? Status{} : arena.refused();
 }
@@ -76,16 +67,9 @@ void LinkWalk::leave(std::uint32_t b) {
   left_[level.last++] = b;
 }
 
-void LinkWalk::go_to(std::uint32_t a) {
+std::uint32_t LinkWalk::close_levels(std::uint32_t a) {
   while (levels_ > 0 && (a <= level_[levels_ - 1].block || a >= level_[levels_ - 1].end)) --levels_;
-  std::uint32_t node = levels_ > 0 ? level_[levels_ - 1].block + 1 : surfaces_->mesh_begin[mesh_of(a)];
-  for (;;) {
-    while (surfaces_->end(node) <= a) node = surfaces_->end(node);
-    if (node == a) return;
-    NodeGeometry own;
-    expand(row_side(*surfaces_, node, own), [](std::uint32_t) {});
-    ++node;
-  }
+  return levels_ > 0 ? level_[levels_ - 1].block + 1 : surfaces_->mesh_begin[mesh_of(a)];
 }
 
 bool LinkWalk::far_from(std::uint32_t patch, std::uint32_t mesh) const {
@@ -110,32 +94,9 @@ LinkWalk::Step LinkWalk::judge_rule3(std::uint32_t a, std::uint32_t b) const {
   return far_from(a, b) ? Step::kLink : Step::kSplitSecond;
 }
 
-LinkWalk::Step LinkWalk::judge_blocks(std::uint32_t a, std::uint32_t b) const {
-  const Patch& p = surfaces_->patch(a);
-  const Patch& q = surfaces_->patch(b);
-  const Vec3 apart = q.centre - p.centre;
-  const double over_p = dot(p.normal, apart), over_q = -dot(q.normal, apart);
-  const double side_p = p.longest_side, side_q = q.longest_side;
-  if (over_p + side_q <= 0 || over_q + side_p <= 0) return Step::kNothing;
-  const bool split_p = surfaces_->is_block(a) && (side_p >= side_q || !surfaces_->is_block(b));
-  const Step split = split_p ? Step::kSplitFirst : Step::kSplitSecond;
-  const double squared = length_squared(apart), sides = side_p + side_q;
-  // Nearer than that the estimate is none; squares, since roots are dear.
-  if (squared < 0.25 * sides * sides) return split;
-  const double distance = square_root(squared);
-  const double cos_p = at_most_one((over_p + 0.5 * side_q) / distance), cos_q = at_most_one((over_q + 0.5 * side_p) / distance);
-  if (!(cos_p > 0) || !(cos_q > 0)) return Step::kNothing;
-  const double least = p.area < q.area ? p.area : q.area;
-  const double exchange = p.area * q.area * kInversePi * cos_p * cos_q / squared;
-  const double error = exchange * sides;
-  const double allowed = error_ * distance;
-  return error * error * inverse_area_ <= allowed * allowed * least ? Step::kLink : split;
-}
-
 LinkWalk::Step LinkWalk::judge(std::uint32_t a, std::uint32_t b) const {
-  if (!(surfaces_->root_area[b] > 0) || sparsity_->generation(a, b) > sparsity_->now()) return Step::kNothing;
   if (!surfaces_->is_block(a) && !surfaces_->is_block(b)) return Step::kLink;
-  return rule3_ ? judge_rule3(a, b) : judge_blocks(a, b);
+  return judge_rule3(a, b);
 }
 
 }  // namespace shodo

@@ -171,7 +171,8 @@ UpperSums add_rows(FirstPass& pass, std::uint32_t i, const MeshWalk& at_i, RowCu
       row = earlier[g].row(matrix, uncounted, i);
     } else {
       RowWriter writer(matrix.row_words, matrix.doubles());
-      compute_row(matrix.surfaces, matrix.sparsity, matrix.walk, i, g, *matrix.options, intersector, writer, &errors);
+      compute_row(matrix.surfaces, matrix.sparsity, matrix.walk, matrix.tools, i, g, *matrix.options,
+                  intersector, writer, &errors);
       const std::span<const std::uint16_t> made = writer.finish();
       matrix.stores[g].keep(made);
       row = made.data();
@@ -201,8 +202,8 @@ const std::uint16_t* RowCursor::row(Matrix& matrix, Intersector& uncounted, std:
     return row;
   }
   RowWriter writer(matrix.row_words, matrix.doubles());
-  compute_row(matrix.surfaces, matrix.sparsity, matrix.walk, i, generation_, *matrix.options, uncounted, writer,
-              nullptr);
+  compute_row(matrix.surfaces, matrix.sparsity, matrix.walk, matrix.tools, i, generation_, *matrix.options,
+              uncounted, writer, nullptr);
   return writer.finish().data();
 }
 
@@ -211,6 +212,7 @@ Status prepare_matrix(const DirectLight& direct, Arena& arena, Matrix& matrix) {
   const Rules& rules = matrix.options->rules;
   const std::uint32_t n = matrix.surfaces.size();
   Status status = matrix.sparsity.take(arena, matrix.surfaces, direct, rules);
+  if (status.done()) status = matrix.tools.take(arena, matrix.surfaces, direct, *matrix.options);
   if (status.done()) status = matrix.walk.take(arena, matrix.surfaces, matrix.sparsity, *matrix.options);
   if (!status.done()) return status;
   if (!arena.take("row factors", n, matrix.factor)) return arena.refused();
@@ -254,10 +256,11 @@ Status build_matrix(const DirectLight& direct, const Progress& progress, Interse
   return status;
 }
 
-std::uint64_t matrix_bytes(const Scene& scene, const Options& options) {
+std::uint64_t matrix_bytes(const Scene& scene, const Geometry& geometry, const Options& options) {
   const std::uint64_t nodes = node_count(scene, options.rules);
   const std::uint64_t errors = has_own_errors(scene, options.rules) ? 16 * nodes : 0;
-  return Sparsity::bytes(scene, options.rules) + LinkWalk::bytes(scene, options) + 8 * nodes + errors +
+  return Sparsity::bytes(scene, options.rules) + LinkWalk::bytes(scene, options) +
+         BlockTools::bytes(scene, geometry, options) + 8 * nodes + errors +
          (2 * scratch_words(scene, options) + 7) / 8 * 8 + Coarse::bytes(scene);
 }
 

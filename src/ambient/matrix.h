@@ -23,6 +23,7 @@
 #include <cstdint>
 #include <span>
 
+#include "ambient/block_link.h"
 #include "ambient/coarse.h"
 #include "ambient/link_walk.h"
 #include "ambient/row_store.h"
@@ -44,6 +45,7 @@ struct Matrix {
   const Options* options = nullptr;
   Sparsity sparsity;
   LinkWalk walk;
+  BlockTools tools;
   RowStore stores[kGenerations];       // of each generation the first rows, as many as fit
   std::span<std::uint16_t> row_words;  // scratch: a row that isn't kept
   std::span<double> factor;            // f_i, by node; of no meaning for blocks
@@ -80,7 +82,7 @@ Status build_matrix(const DirectLight& direct, const Progress& progress, Interse
                     const FirstPassScratch& scratch, Matrix& matrix, Statistics& statistics);
 
 /// Arena bytes of prepare_matrix and build_matrix without a single row kept.
-std::uint64_t matrix_bytes(const Scene& scene, const Options& options);
+std::uint64_t matrix_bytes(const Scene& scene, const Geometry& geometry, const Options& options);
 
 /// Gives the rows of one generation from the first to the last.
 class RowCursor {

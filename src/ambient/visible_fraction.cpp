@@ -32,6 +32,17 @@ Link link_between(const Surfaces& surfaces, std::uint32_t i, std::uint32_t j) {
   return {surfaces.mesh(i).object, surfaces.mesh(j).object, LightSet::kAmbient};
 }
 
+/// Tests segments, one way or the other.
+struct Tester {
+  Intersector& intersector;
+  Sight* sight;
+  Aim aim;
+
+  bool blocked(const LatticePoint& p, const LatticePoint& q, const Link& link) const {
+    return sight != nullptr ? sight->blocked(p, q, link, intersector) : intersector.blocked(p, q, link, aim);
+  }
+};
+
 /// What the segments of some pairs of samples did.
 struct Seen {
   bool free = false, blocked = false;
@@ -40,13 +51,13 @@ struct Seen {
 };
 
 /// Stops as soon as both kinds were met.
-void look(const Surfaces& surfaces, const PatchEnds& i, const PatchEnds& j, bool crossing, Intersector& intersector,
-          const Aim& aim, Seen& seen) {
+void look(const Surfaces& surfaces, const PatchEnds& i, const PatchEnds& j, bool crossing, const Tester& tester,
+          Seen& seen) {
   const Link link = link_between(surfaces, i.position, j.position);
   for (std::size_t k = 0; k < i.set.size(); ++k) {
     for (std::size_t l = 0; l < j.set.size(); ++l) {
       if (crossing && !(kernel(surfaces, i, k, j, l) > 0)) continue;
-      (intersector.blocked(i.at[k], j.at[l], link, aim) ? seen.blocked : seen.free) = true;
+      (tester.blocked(i.at[k], j.at[l], link) ? seen.blocked : seen.free) = true;
       if (seen.mixed()) return;
     }
   }
@@ -57,15 +68,15 @@ struct Sums {
 };
 
 /// Adds the weights of all pairs of samples, and of those with a free segment; `alike`: all weights the same.
-void weigh(const Surfaces& surfaces, const PatchEnds& i, const PatchEnds& j, bool alike, Intersector& intersector,
-           const Aim& aim, Sums& sums) {
+void weigh(const Surfaces& surfaces, const PatchEnds& i, const PatchEnds& j, bool alike, const Tester& tester,
+           Sums& sums) {
   const Link link = link_between(surfaces, i.position, j.position);
   for (std::size_t k = 0; k < i.set.size(); ++k) {
     for (std::size_t l = 0; l < j.set.size(); ++l) {
       const double weight = alike ? 1 : kernel(surfaces, i, k, j, l);
       if (!(weight > 0)) continue;
       sums.all += weight;
-      if (!intersector.blocked(i.at[k], j.at[l], link, aim)) sums.free += weight;
+      if (!tester.blocked(i.at[k], j.at[l], link)) sums.free += weight;
     }
   }
 }
@@ -126,15 +137,14 @@ Aim aim_between(const Surfaces& surfaces, const PairEnds& ends, const Aim* wide,
   return intersector.aim(i, j, link_between(surfaces, ends.few_i.position, ends.few_j.position));
 }
 
-VisibleFraction weighted_fraction(const Surfaces& surfaces, const PairEnds& ends, Intersector& intersector,
-                                  const Aim& aim) {
+VisibleFraction weighted_fraction(const Surfaces& surfaces, const PairEnds& ends, const Tester& tester) {
   for (const bool alike : {false, true}) {
     Sums sums;
     if (ends.one_set()) {
-      weigh(surfaces, ends.few_i, ends.few_j, alike, intersector, aim, sums);
+      weigh(surfaces, ends.few_i, ends.few_j, alike, tester, sums);
     } else {
-      weigh(surfaces, ends.few_i, ends.many_j, alike, intersector, aim, sums);
-      weigh(surfaces, ends.many_i, ends.few_j, alike, intersector, aim, sums);
+      weigh(surfaces, ends.few_i, ends.many_j, alike, tester, sums);
+      weigh(surfaces, ends.many_i, ends.few_j, alike, tester, sums);
     }
     if (!(sums.all > 0)) continue;
     const double value = sums.free / sums.all;
@@ -148,31 +158,34 @@ VisibleFraction weighted_fraction(const Surfaces& surfaces, const PairEnds& ends
 }  // namespace
 
 VisibleFraction visible_fraction(const Surfaces& surfaces, std::uint32_t i, std::uint32_t j, bool crossing,
-                                 const Options& options, Intersector& intersector, const Aim& wide,
+                                 const Options& options, Intersector& intersector, Sight* sight, const Aim& wide,
                                  DenseSamples& dense_i) {
   DenseSamples at_i, at_j;
   const bool densify = options.segments_mixed > options.segments_first;
   const SegmentSets first = segment_sets(options.segments_first);
   // The row's samples are those of the denser sets if there are any, else of the first.
   const PairEnds ends = place_ends(surfaces, i, j, first, densify ? at_i : dense_i, at_j);
-  const Aim aim = aim_between(surfaces, ends, first.few == surfaces.cached_set ? &wide : nullptr, intersector);
-  if (aim.clear()) return {1, 0};
+  Tester tester{intersector, sight, {}};
+  if (sight == nullptr) {
+    tester.aim = aim_between(surfaces, ends, first.few == surfaces.cached_set ? &wide : nullptr, intersector);
+    if (tester.aim.clear()) return {1, 0};
+  }
   Seen seen;
   if (ends.one_set()) {
-    look(surfaces, ends.few_i, ends.few_j, crossing, intersector, aim, seen);
+    look(surfaces, ends.few_i, ends.few_j, crossing, tester, seen);
   } else {
-    look(surfaces, ends.few_i, ends.many_j, crossing, intersector, aim, seen);
-    if (!seen.mixed()) look(surfaces, ends.many_i, ends.few_j, crossing, intersector, aim, seen);
+    look(surfaces, ends.few_i, ends.many_j, crossing, tester, seen);
+    if (!seen.mixed()) look(surfaces, ends.many_i, ends.few_j, crossing, tester, seen);
   }
   if (seen.free && !seen.blocked) return {1, 0};
   if (seen.blocked && !seen.free) return {0, 0};
   // Mixed, or no pair of samples with a positive kernel.
-  if (!densify) return weighted_fraction(surfaces, ends, intersector, aim);
+  if (!densify) return weighted_fraction(surfaces, ends, tester);
   DenseSamples dense_j;
   const SegmentSets dense = segment_sets(options.segments_mixed);
   const PairEnds dense_ends = place_ends(surfaces, i, j, dense, dense_i, dense_j);
-  const Aim dense_aim = aim_between(surfaces, dense_ends, nullptr, intersector);
-  return weighted_fraction(surfaces, dense_ends, intersector, dense_aim);
+  if (sight == nullptr) tester.aim = aim_between(surfaces, dense_ends, nullptr, intersector);
+  return weighted_fraction(surfaces, dense_ends, tester);
 }
 
 }  // namespace shodo

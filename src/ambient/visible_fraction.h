@@ -10,6 +10,7 @@
 // sqrt(V (1 - V) / N).
 #pragma once
 
+#include "ambient/sight.h"
 #include "ambient/surfaces.h"
 #include "visibility/intersector.h"
 
@@ -27,9 +28,10 @@ struct VisibleFraction {
   double variance = 0;  // estimated
 };
 
-/// `wide`: aimed between boxes that hold the cached samples of i and of j (ambient/surfaces.h).
+/// `sight` has the list of the pair, or is null. Then `wide` is aimed between
+/// boxes that hold the cached samples of i and of j (ambient/surfaces.h).
 VisibleFraction visible_fraction(const Surfaces& surfaces, std::uint32_t i, std::uint32_t j, bool crossing,
-                                 const Options& options, Intersector& intersector, const Aim& wide,
+                                 const Options& options, Intersector& intersector, Sight* sight, const Aim& wide,
                                  DenseSamples& dense_i);
 
 }  // namespace shodo

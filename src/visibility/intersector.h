@@ -84,6 +84,19 @@ class Intersector {
   std::uint64_t segments(LightSet set) const { return segments_[index(set)]; }
   std::uint64_t tests(LightSet set) const { return tests_[index(set)]; }
 
+  /// For those who look for blockers in their own way (ambient/sight.h): all facets; whether one blocks in a set;
+  /// whether a link is tested; the count of a segment, its tests, and the object that blocks it (or kNone).
+  std::span<const Facet> facets() { return blockers_.facets(); }
+  bool blocks(std::uint32_t facet, LightSet set) const {
+    return (blockers_.facets()[facet].blocks >> index(set) & 1) != 0;
+  }
+  bool tested(const Link& link) const { return flags_.tested(link); }
+  void count(const Link& link, std::uint64_t tests, std::uint32_t object) {
+    ++segments_[index(link.set)];
+    tests_[index(link.set)] += tests;
+    if (object != kNone) flags_.note_blocked(link, object);
+  }
+
  private:
   static constexpr std::uint32_t index(LightSet set) { return static_cast<std::uint32_t>(set); }
 

@@ -107,7 +107,7 @@ void expect_same_bits_in_any_memory(const std::string& text, const Options& opti
   kept.light(e0);
   ASSERT_TRUE(kept.solve().done());
   EXPECT_EQ(kept.statistics.rows_recomputed, 0u);
-  const std::uint64_t least = smallest_ambient_bytes(kept.loaded.scene, options);
+  const std::uint64_t least = smallest_ambient_bytes(kept.loaded.scene, kept.geometry, options);
   for (const std::uint64_t more : mores) {
     std::vector<std::uint64_t> memory((least + more) / 8);
     Arena arena(memory.data(), memory.size() * 8);

@@ -292,7 +292,7 @@ TEST(AmbientLight, NothingToLightIsFine) {
   AmbientLight ambient;
   Statistics statistics;
   ASSERT_TRUE(light_ambiently(empty, geometry, {}, {}, intersector, {}, {}, arena, ambient, statistics).done());
-  EXPECT_LE(smallest_ambient_bytes(empty, {}), sizeof memory);
+  EXPECT_LE(smallest_ambient_bytes(empty, geometry, {}), sizeof memory);
   EXPECT_EQ(statistics.sweeps, 0u);
   AmbientScene one(grey(0.9) + "object o\nquad white 0 0 0 1 0 0 1 1 0 0 1 0 patches 1 1 sub 1 1\n");
   one.light([](const Vec3&, std::uint32_t) { return 7.0; });

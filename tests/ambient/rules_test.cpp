@@ -291,13 +291,14 @@ TEST(Blocks, LinksCoverEveryPairOnceAndKeepTheEnergy) {
         EXPECT_EQ(stored.covered[i * stored.n + j], scene.patches[i].mesh == scene.patches[j].mesh ? 0 : 1);
       }
     }
-    // Energy: what all patches together send to all others is what they have, but for the error of the tiers.
+    // Energy: what all patches together send to all others is what they have, but for the error of the kernels: of links
+    // that matter less than REL that of a disc's form factor, up to a fifth, and most of them too large.
     double sum = 0, area = 0;
     for (std::size_t i = 0; i < stored.n; ++i) {
       sum += scene.patches[i].area * stored.row_sum(i);
       area += scene.patches[i].area;
     }
-    EXPECT_NEAR(sum / area, 1, 2e-3) << error;
+    EXPECT_NEAR(sum / area, 1, error < 1e-5 ? 2e-3 : error < 5e-3 ? 5e-3 : 5e-2) << error;
   }
 }
 
@@ -383,7 +384,7 @@ TEST(Blocks, RowsComputedAgainGiveTheBitsOfRowsKept) {
     Options options = with_rules(rules);
     options.segments_first = 1;
     options.segments_mixed = 16;
-    expect_same_bits_in_any_memory(furnished(0.7, 2), options, e0_of, {0, 3000, 20000},
+    expect_same_bits_in_any_memory(furnished(0.7, 2), options, e0_of, {0, 1500, 4000},
                                    [](const AmbientScene&, const Arena&, std::uint64_t) {});
   }
 }

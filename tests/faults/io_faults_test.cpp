@@ -178,7 +178,7 @@ TEST(IoFaults, AnInterruptAtAnyCallIsStatus130AndLeavesNothingOrComesTooLate) {
 
 TEST(IoFaults, AnInterruptAtAnyTimeIsStatus130AndLeavesNothingOrComesTooLate) {
   const Words words{"render", test_scene("shapes.scn"), "-o",      "x.ppm", "--csv", "x.csv",
-                    "--size", "320x240",                "--refine", "2"};
+                    "--size", "320x240",                "--refine", "4"};
   long stopped = 0;
   bool done = false;
   for (int milliseconds = 20; !done && milliseconds < 20000; milliseconds += 20 + milliseconds / 4) {

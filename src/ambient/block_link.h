@@ -1,0 +1,98 @@
+// `blocks`: which pairs of nodes are good enough for one link, and how much work each is worth (ours, beyond paper 3.2
+// rule 3; doc/rules.md).
+//
+// The error of a link is what it makes wrong of the light that its ends gather. In the symmetric form that is stored
+// (ambient/row_store.h) row i sums v_ij s_j, with s_j = R_j rho_j E_j what j sends; both ends together are wrong by
+//     e^2 = v^2 (d_i^2 (s_j^2 + t_i^2) + d_j^2 (s_i^2 + t_j^2)),
+// d_i the relative variation of the kernel over i (ambient/link_series.h), t_i how unevenly the parts of i send (an
+// uneven sender and a kernel that varies over it make an error together). All s and t are over the norm of all rows'
+// sums, E R of the whole scene (ambient/link_worth.h): so a link's e is its part of the error of the solution, root
+// mean square over the mean illuminance, and REL is the most it may be. With w = v sqrt(s_i^2 + s_j^2 + t_i^2 + t_j^2), the
+// error of a link that is wholly wrong:
+//     w <= REL             a link, whatever it is like, with one segment
+//     e <= REL             a link if all first segments agree: 4 while 0.2 w <= REL, 8 while 0.1 w <= REL, 16 while
+//                          0.05 w <= REL, beyond that only if nothing stands between the two
+//     both, and mixed      a link with its visible fraction if 0.7 w <= REL
+// Whatever isn't a link is split: the end over which the kernel varies more, or the larger. Patches are never split;
+// the dearest of them get the segments of `--segments`, all others 4 to 16. Too near for a series: blocks are split until
+// 0.3 w <= REL, patches take the near tier until 0.25 w <= REL; then a disc's form factor serves.
+//
+// The decision needs nothing but the two nodes and segments between them, so that rows can be found again.
+// Bytes: those of ambient/link_worth.h, link_series.h and sight.h.
+#pragma once
+
+#include <cstdint>
+
+#include "ambient/link_series.h"
+#include "ambient/link_walk.h"
+#include "ambient/link_worth.h"
+#include "ambient/sight.h"
+#include "ambient/visible_fraction.h"
+
+namespace shodo {
+
+/// What blocks need besides the tree; nothing without them.
+struct BlockTools {
+  LinkWorth worth;
+  Places places;
+  Sight sight;
+
+  /// Errors: kMemory.
+  Status take(Arena& arena, const Surfaces& surfaces, const DirectLight& direct, const Options& options);
+  static std::uint64_t bytes(const Scene& scene, const Geometry& geometry, const Options& options);
+};
+
+/// A link as it is found.
+struct BlockLink {
+  PairExchange pair;
+  VisibleFraction visible;
+};
+
+/// Judges the pairs of one node after the other.
+class BlockJudge {
+ public:
+  BlockJudge(const Surfaces& surfaces, const Options& options, BlockTools& tools, Intersector& intersector)
+      : surfaces_(surfaces), options_(options), tools_(tools), intersector_(intersector) {}
+
+  /// Pairs of one side, j ascending; a block's parts after it.
+  LinkWalk::Step judge(const RowSide& side, std::uint32_t j);
+  /// Of the last pair that was judged to be a link.
+  const BlockLink& found() const { return found_; }
+
+ private:
+  /// A pair at work: what is known of it before segments.
+  struct Pair {
+    std::uint32_t j = 0;
+    LinkSeries series;
+    double whole = 0;      // w^2
+    bool patches = false;  // both ends are
+    bool slight = false;   // w <= REL
+    bool near = false;     // the near tier is needed
+    LinkWalk::Step split = LinkWalk::Step::kSplitFirst;
+  };
+  /// Ends of segments between cached samples, and what they met.
+  struct Shots;
+
+  void start(const RowSide& side);
+  LinkWalk::Step decide(const RowSide& side, std::uint32_t j);
+  LinkSeries series_of(const RowSide& side, std::uint32_t j) const;
+  bool within(double squared, double part) const { return squared * (part * part) <= tools_.worth.allowed(); }
+  bool varies_too_much(Pair& pair) const;
+  bool measure(const RowSide& side, const Pair& pair);
+  LinkWalk::Step look(const RowSide& side, const Pair& pair);
+  Shots shots_of(const RowSide& side, const Pair& pair) const;
+  void shoot(Shots& shots, std::uint32_t k, std::uint32_t l);
+
+  const Surfaces& surfaces_;
+  const Options& options_;
+  BlockTools& tools_;
+  Intersector& intersector_;
+  std::uint32_t node_ = kNone;   // of the side at work
+  std::uint32_t own_place_ = 0;  // of its mesh
+  std::uint32_t place_ = 0;      // of j's mesh
+  PlacedSide placed_ = {};
+  DenseSamples dense_;
+  BlockLink found_;
+};
+
+}  // namespace shodo

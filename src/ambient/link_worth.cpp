@@ -1,0 +1,64 @@
+#include "ambient/link_worth.h"
+
+namespace shodo {
+
+std::uint64_t LinkWorth::bytes(const Scene& scene, const Rules& rules) {
+  return rules.blocks ? 2 * ((4 * std::uint64_t{node_count(scene, rules)} + 7) / 8 * 8) : 0;
+}
+
+Status LinkWorth::take(Arena& arena, const Surfaces& surfaces, const DirectLight& direct, const Rules& rules) {
+  if (!rules.blocks) return {};
+  const double error = rules.blocks_error > 0 ? rules.blocks_error : kBlocksError;
+  allowed_ = error * error;
+  const std::size_t n = surfaces.size();
+  if (!arena.take("light sent", n, sent_) || !arena.take("unevenness", n, uneven_)) return arena.refused();
+  estimate(surfaces, direct);
+  return {};
+}
+
+void LinkWorth::estimate(const Surfaces& s, const DirectLight& direct) {
+  const std::uint32_t channels = s.scene->channels;
+  double area = 0, mean = 0, ambient[3] = {0, 0, 0};
+  const auto reflectance = [&](std::uint32_t node) { return s.scene->materials[s.mesh(node).material].diffuse.c; };
+  for (std::uint32_t node = 0; node < s.size(); ++node) {
+    if (!s.is_block(node)) area += s.root_area[node] * s.root_area[node];
+  }
+  if (!(area > 0)) return;
+  for (std::uint32_t c = 0; c < channels; ++c) {
+    double absorbing = 0, reflected = 0, direct_light = 0;
+    for (std::uint32_t node = 0; node < s.size(); ++node) {
+      if (s.is_block(node) || !(s.root_area[node] > 0)) continue;
+      const double part = s.root_area[node] * s.root_area[node], rho = reflectance(node)[c];
+      const double lx = direct.patch_lx[std::size_t{s.patch_at[node]} * channels + c];
+      absorbing += part * (1 - rho);
+      reflected += part * rho * lx;
+      direct_light += part * lx;
+    }
+    ambient[c] = reflected / absorbing;
+    mean += direct_light / area + ambient[c];
+  }
+  const double scale = mean > 0 ? 1 / (mean * square_root(area)) : 0;
+  for (std::uint32_t node = s.size(); node-- > 0;) {
+    if (!(s.root_area[node] > 0)) continue;
+    const double own = s.root_area[node] * s.root_area[node];
+    if (s.is_block(node)) {  // its parts are numbered after it
+      double sum = 0, squares = 0;
+      for (std::uint32_t child = node + 1; child < s.end(node); child = s.end(child)) {
+        const double part = s.root_area[child] * s.root_area[child], of_child = sent(child);
+        sum += square_root(of_child * part);
+        squares += of_child + uneven(child);
+      }
+      const double mean_square = sum * sum / own, rest = squares - mean_square;
+      sent_[node] = static_cast<float>(mean_square);
+      uneven_[node] = rest > 0 ? static_cast<float>(rest) : 0.0f;
+      continue;
+    }
+    double sum = 0;
+    for (std::uint32_t c = 0; c < channels; ++c) {
+      sum += reflectance(node)[c] * (direct.patch_lx[std::size_t{s.patch_at[node]} * channels + c] + ambient[c]);
+    }
+    sent_[node] = static_cast<float>(sum * scale * (sum * scale) * own);
+  }
+}
+
+}  // namespace shodo

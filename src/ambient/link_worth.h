@@ -1,0 +1,35 @@
+// What a link matters to the light of the scene, estimated by direct light alone (ours; paper 3.2 rule 3 carried on).
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "ambient/surfaces.h"
+#include "base/arena.h"
+#include "light/direct.h"
+#include "shodo/options.h"
+
+namespace shodo {
+
+inline constexpr double kBlocksError = 2e-4;
+
+class LinkWorth {
+ public:
+  /// Errors: kMemory.
+  Status take(Arena& arena, const Surfaces& surfaces, const DirectLight& direct, const Rules& rules);
+  static std::uint64_t bytes(const Scene& scene, const Rules& rules);
+
+  /// Squares of what a node sends, and of how unevenly its parts do: (R B)^2 over (E R of the scene)^2.
+  double sent(std::uint32_t node) const { return static_cast<double>(sent_[node]); }
+  double uneven(std::uint32_t node) const { return static_cast<double>(uneven_[node]); }
+  /// REL^2.
+  double allowed() const { return allowed_; }
+
+ private:
+  void estimate(const Surfaces& surfaces, const DirectLight& direct);
+
+  std::span<float> sent_, uneven_;
+  double allowed_ = 0;
+};
+
+}  // namespace shodo
