@@ -59,7 +59,7 @@ class LeanShaft {
   std::uint32_t lines_used_ = 0;
 };
 
-inline constexpr std::uint32_t kListWords = 8192;
+inline constexpr std::uint32_t kListWords = 3072;
 
 class Sight {
  public:
