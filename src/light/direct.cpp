@@ -114,6 +114,7 @@ class DirectStage {
   Sources& sources_;
   DirectLight& direct_;
   std::uint32_t done_ = 0;
+  FlatFront front_;  // of the patch at work
 };
 
 bool DirectStage::light_patch(std::uint32_t m, std::uint32_t local, const Progress& progress) {
@@ -133,6 +134,7 @@ bool DirectStage::light_patch(std::uint32_t m, std::uint32_t local, const Progre
 
 /// A box for the samples of all sub-patches; nothing where there is one only.
 void DirectStage::start_patch(std::uint32_t m, std::uint32_t cell, std::uint32_t local) {
+  front_ = flat_front(geometry_, m, cell);
   const Mesh& mesh = scene_.meshes[m];
   LatticeBox box;
   if (mesh.su * mesh.sv > 1) {
@@ -155,7 +157,8 @@ void DirectStage::light_one(std::uint32_t m, std::uint32_t cell, std::uint32_t l
   const double area = length(piece.vector_area());
   sums.area += area;
   if (!(area > 0)) return;
-  const Receiver receiver = receiver_of(scene_, m, cell, piece);
+  Receiver receiver = receiver_of(scene_, m, cell, piece);
+  receiver.front = front_;
   const SubPatchLight light = light_sub_patch(sources_, receiver, piece, is_thin(geometry_, piece));
   const std::uint32_t index = mesh.first_sub_patch + local;
   if (light.hidden) {

@@ -99,6 +99,7 @@ Piece emitter_piece(const Scene& scene, const Emitter& emitter) {
 }
 
 LatticePoint segment_end(const Scene& scene, const Geometry& geometry, const Emitter& emitter, const Vec3& point) {
+  if (emitter.front.flat()) return emitter.front.move(odd_point(geometry.lattice, point));
   if (emitter.is_area()) return light_sample_point(scene, geometry, emitter.light, point);
   return sample_point(scene, geometry, emitter.mesh, emitter.cell, point);
 }
@@ -158,6 +159,8 @@ void place_ends(const Scene& scene, const Geometry& geometry, Emitters& emitters
                 std::uint32_t first_end) {
   Emitter& emitter = emitters.faces[e];
   emitter.first_end = first_end;
+  emitter.front = emitter.is_area() ? flat_front(scene, geometry, emitter.light)
+                                    : flat_front(geometry, emitter.mesh, emitter.cell);
   const Piece piece = emitter_piece(scene, emitter);
   const PieceGrid grid(piece, 1);
   for (std::uint32_t k = 0; k < emitter.end_count; ++k) {

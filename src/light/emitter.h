@@ -8,7 +8,7 @@
 // finely as by 4 x 4 points, by the 32 as by 16 x 16. On a long light they stand in two rows or in one. Each set is
 // mapped on itself by every mirror image of the face, and so are the first two of the 32 in every quarter: a mirrored
 // scene has mirrored light.
-// Bytes: 160 a face that emits, and 36 a point: 40 an area light, 5 a face of a polyhedron.
+// Bytes: 168 a face that emits, and 36 a point: 40 an area light, 5 a face of a polyhedron.
 #pragma once
 
 #include <cstdint>
@@ -45,6 +45,7 @@ struct Emitter {
   std::uint16_t cut = 0;
   std::uint32_t first_end = 0;
   std::uint32_t end_count = 0;
+  FlatFront front;  // on the lattice
   // Of a polyhedron's face the plane of one of its triangles, and the height over it, in Triangle::side(), below which
   // all of the polyhedron lies and above which all ends do: then no segment that starts above, too, meets it.
   std::uint32_t own_triangle = kNone;  // kNone: there is no such height
@@ -56,7 +57,7 @@ struct Emitter {
   /// Scene units; positive in front.
   double height(const Vec3& point) const { return dot(normal, point) - plane; }
 };
-static_assert(sizeof(Emitter) == 160);
+static_assert(sizeof(Emitter) == 168);
 
 /// Where segments to a face end.
 struct EmitterEnd {

@@ -9,6 +9,7 @@
 
 #include "base/lattice.h"
 #include "base/vector.h"
+#include "visibility/geometry.h"
 
 namespace shodo {
 
@@ -19,6 +20,7 @@ struct Receiver {
   std::uint32_t object = 0;
   Vec3 normal;  // unit
   Vec3 anchor;  // a point of the plane
+  FlatFront front;  // of the cell on the lattice
 
   /// Scene units; positive in front.
   double height(const Vec3& point) const { return dot(normal, point - anchor); }

@@ -74,6 +74,24 @@ Patch make_patch(const Scene& scene, const Geometry& geometry, std::uint32_t mes
 /// would leave it otherwise. A sample at parameter s of 0 .. 1 goes to inset + (1 - 2 inset) s.
 double sample_inset(const Patch& patch);
 
+/// Of a polygon all triangles of which lie in one plane square to an axis: where in front of it is.
+struct FlatFront {
+  std::uint32_t axis = 3;  // 3: it is none
+  std::int32_t plane = 0;  // even
+  std::int32_t way = 1;    // 1 or -1: in front is up or down the axis
+
+  bool flat() const { return axis < 3; }
+  /// In front of it, as sample_point() would move an odd point: the first beyond the plane, if it isn't there yet.
+  LatticePoint move(LatticePoint p) const {
+    std::int32_t& at = axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+    if (way > 0 ? at <= plane : at >= plane) at = plane + way;
+    return p;
+  }
+};
+FlatFront flat_front(const Geometry& geometry, std::uint32_t mesh, std::uint32_t cell);
+/// Of an area light, open or not.
+FlatFront flat_front(const Scene& scene, const Geometry& geometry, std::uint32_t light);
+
 /// The odd lattice point of a point on cell `cell` of `mesh`, moved by steps of 2 along the dominant axis of the
 /// polygon's normal until strictly in front of the polygon's own triangles there.
 LatticePoint sample_point(const Scene& scene, const Geometry& geometry, std::uint32_t mesh, std::uint32_t cell,

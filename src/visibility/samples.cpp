@@ -61,24 +61,20 @@ bool all_in_plane(std::span<const Triangle> triangles, std::uint32_t axis) {
   return true;
 }
 
-/// The same as in_front() for such a polygon, wherever on it p lies: the first odd point beyond the plane. False: it is
-/// none, or has no area.
-bool in_front_of_flat(std::span<const Triangle> triangles, LatticePoint& p) {
-  for (std::uint32_t axis = 0; axis < 3; ++axis) {
-    if (triangles.empty() || !all_in_plane(triangles, axis)) continue;
+FlatFront flat_front_of(std::span<const Triangle> triangles) {
+  for (std::uint32_t axis = 0; axis < 3 && !triangles.empty(); ++axis) {
+    if (!all_in_plane(triangles, axis)) continue;
     std::int64_t normal = 0;
     for (const Triangle& triangle : triangles) normal += component(triangle.n, axis);
-    if (normal == 0) return false;
-    const std::int32_t plane = coordinate(triangles[0].a, axis), at = coordinate(p, axis);
-    if (normal > 0 ? at <= plane : at >= plane) move_along(axis, plane - at + (normal > 0 ? 1 : -1), p);
-    return true;
+    if (normal == 0) return {};
+    return {axis, coordinate(triangles[0].a, axis), normal > 0 ? 1 : -1};
   }
-  return false;
+  return {};
 }
 
 /// In front of the one of the triangles that lies at p as seen along the dominant axis of their common normal.
 LatticePoint in_front(std::span<const Triangle> triangles, LatticePoint p) {
-  if (in_front_of_flat(triangles, p)) return p;
+  if (const FlatFront front = flat_front_of(triangles); front.flat()) return front.move(p);
   LatticeVector normal;
   for (const Triangle& triangle : triangles) {
     normal = {normal.x + triangle.n.x, normal.y + triangle.n.y, normal.z + triangle.n.z};
@@ -120,6 +116,19 @@ std::uint32_t open_light_triangles(const Geometry& geometry, const Light& light,
 }
 
 }  // namespace
+
+FlatFront flat_front(const Geometry& geometry, std::uint32_t mesh, std::uint32_t cell) {
+  const PolygonTriangles range = geometry.cells[geometry.first_cell[mesh] + cell];
+  return flat_front_of(geometry.triangles.subspan(range.first, range.count));
+}
+
+FlatFront flat_front(const Scene& scene, const Geometry& geometry, std::uint32_t light) {
+  const PolygonTriangles range = geometry.light_triangles[light];
+  if (range.count > 0) return flat_front_of(geometry.triangles.subspan(range.first, range.count));
+  Triangle triangles[2];
+  const std::uint32_t count = open_light_triangles(geometry, scene.lights[light], triangles);
+  return flat_front_of(std::span<const Triangle>(triangles, count));
+}
 
 LatticePoint sample_point(const Scene& scene, const Geometry& geometry, std::uint32_t mesh, std::uint32_t cell,
                           const Vec3& point) {
