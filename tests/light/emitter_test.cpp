@@ -101,12 +101,12 @@ TEST(Emitter, NoTwoOfASquaresEndsShareAColumnButMirrorImages) {
 
 TEST(Emitter, AnyPointOfAnAreaLightEndsInItsBox) {
   Random random(3);
-  for (int k = 0; k < 3000; ++k) {
+  for (int k = 0; k < 400; ++k) {
     HandMadeScene scene;
     // Turned any way, or with level sides on a steep plane: there rounding moves ends most, of some but not of others.
-    const double size = random.below(2) == 0 ? 1 : 1e-4;
+    const double size = random.below(8) != 0 ? 1 : 1e-4;
     const auto any = [&] { return Vec3{random.signed_unit(), random.signed_unit(), random.signed_unit()}; };
-    const bool level = k % 3 != 0;
+    const bool level = k % 8 != 0;
     const double slope_x = 0.5 + 0.5 * random.unit(), slope_y = 0.5 + 0.5 * random.unit();
     const Vec3 a = any(), b = size * (level ? Vec3{slope_y, -slope_x, 0} : any()),
                d = size * (level ? Vec3{0.5, 0.5, -0.5 * (slope_x + slope_y)} : any());
@@ -115,8 +115,8 @@ TEST(Emitter, AnyPointOfAnAreaLightEndsInItsBox) {
     ASSERT_TRUE(scene.status.done());
     const Ends ends(scene, area_emitter(scene.scene, light));
     const Piece piece = emitter_piece(scene.scene, ends.face());
-    for (int s = 0; s < 100; ++s) {
-      const double s_at = random.unit(), t_at = random.below(2) == 0 ? random.below(2) : random.unit();
+    for (int s = 0; s < 500; ++s) {
+      const double s_at = random.unit(), t_at = random.below(8) != 0 ? random.below(2) : random.unit();
       const Vec3 at = piece.point(s_at, t_at);
       const LatticePoint end = segment_end(scene.scene, scene.geometry, ends.face(), at);
       EXPECT_TRUE(ends.face().whole.contains(end, 0)) << k;
