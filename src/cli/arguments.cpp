@@ -128,7 +128,10 @@ bool take_rule(std::string_view item, Rules& rules) {
     rules.blocks = true;
     return !has_value || number_in(value, 1e-9, 1, rules.blocks_error);
   }
-  bool* const rule = item == "1" ? &rules.rule1 : item == "2" ? &rules.rule2 : item == "2+" ? &rules.rule2_repeated : nullptr;
+  bool* const rule = item == "1"    ? &rules.rule1
+                     : item == "2"  ? &rules.rule2
+                     : item == "2+" ? &rules.rule2_repeated
+                                    : nullptr;
   if (rule == nullptr || *rule) return false;
   *rule = true;
   return !(rules.rule2 && rules.rule2_repeated);
@@ -180,7 +183,8 @@ constexpr OptionRule kOptions[] = {
     {"--flags", "off|auto|scene", kForOne, "off, auto or scene", "which blocking flags are used (auto)", take_flags},
     {"--rules", "LIST", kForOne,
      "none, all, or a list of 1, 2 or 2+, and 3, 3:D or blocks, blocks:REL (D from 0.1 to 1000, REL from 1e-9 to 1)",
-     "which sparsity rules are used: none, all (1,2,3), or some of 1, 2 or 2+, and 3[:D] or blocks[:REL] (none)", take_rules},
+     "which sparsity rules are used: none, all (1,2,3), or some of 1, 2 or 2+, and 3[:D] or blocks[:REL] (none)",
+     take_rules},
     {"--tolerance", "REL", kForAll, "a number from 1e-12 to 1", "the solver's bound, of the largest illuminance (1e-4)",
      [](std::string_view t, Arguments& a) { return number_in(t, 1e-12, 1, a.options.tolerance); }},
     {"--patch", "SIZE", kForAll, "a number above 0",

@@ -133,7 +133,8 @@ std::string statistics_json(const Model& model, const std::string& scene, const 
       .close();
   json.open("links").add("stored", s.links).add("to_blocks", s.block_links).add("blocks", s.blocks).close();
   json.open("rules_dropped").add("rows", s.rows_emptied).add("columns", s.columns_emptied);
-  json.add("columns_restored", s.columns_restored).add("rounds", s.rule2_rounds).add("loss_bound_lx", s.rule2_bound_lx).close();
+  json.add("columns_restored", s.columns_restored).add("rounds", s.rule2_rounds);
+  json.add("loss_bound_lx", s.rule2_bound_lx).close();
   json.open("rows").add("scaled", s.rows_scaled).add("kept", s.rows_kept).add("recomputed", s.rows_recomputed).close();
   json.open("solution").add("sweeps", s.sweeps).add("bound", s.solution_bound).close();
   json.open("memory").add("budget", s.memory_budget).add("peak", s.memory_peak);

@@ -20,8 +20,8 @@ struct DirectLight {
   std::span<std::uint8_t> hidden;  // per sub-patch: 1 if inside or under something
   std::span<double> patch_lx;      // [patch * channels + channel]: E0, area-weighted over sub-patches not hidden
   std::span<float> visible_area;   // per patch: the fraction of its area that is not hidden
-  std::span<float>
-      light_form_factor;  // per patch: the part of its cosine-weighted hemisphere that area lights and openings fill
+  // Per patch: the part of its cosine-weighted hemisphere that area lights and openings fill.
+  std::span<float> light_form_factor;
 };
 
 /// What stays of a run: 8 c + 8 a patch, c channels, and 4 c + 1 a sub-patch.

@@ -10,6 +10,8 @@ namespace {
 /// A light this many times as long as wide has two rows of ends; one row from the second on.
 constexpr double kLong = 3;
 constexpr double kVeryLong = 8;
+/// Lattice steps: ends stand less than 11 off their points (see visibility/samples.cpp), and so do the corners' own.
+constexpr std::int32_t kEndRounding = 22;
 
 Emitter emitter_of(const Piece& piece, std::uint32_t light) {
   Emitter emitter;
@@ -129,8 +131,8 @@ void find_own_height(const Geometry& geometry, std::span<const LatticePoint> end
   emitter.own_triangle = triangle;
 }
 
-/// Any point of the face may be an end: see FaceLight. Each is rounded on its own, so the box grows by two steps but
-/// where it is flat.
+/// Any point of the face may be an end: see FaceLight. Each is rounded and moved in front of the face on its own, so the
+/// box grows by that but where it is flat.
 void include_corners(const Scene& scene, const Geometry& geometry, const Piece& piece, Emitter& emitter) {
   LatticeBox& whole = emitter.whole;
   whole = emitter.box;
@@ -139,8 +141,8 @@ void include_corners(const Scene& scene, const Geometry& geometry, const Piece& 
   }
   for (int k = 0; k < 3; ++k) {
     if (whole.low[k] >= whole.high[k]) continue;
-    whole.low[k] -= 2;
-    whole.high[k] += 2;
+    whole.low[k] -= kEndRounding;
+    whole.high[k] += kEndRounding;
   }
 }
 

@@ -8,7 +8,7 @@
 // finely as by 4 x 4 points, by the 32 as by 16 x 16. On a long light they stand in two rows or in one. Each set is
 // mapped on itself by every mirror image of the face, and so are the first two of the 32 in every quarter: a mirrored
 // scene has mirrored light.
-// Bytes: 168 a face that emits, and 36 a point: 40 an area light, 5 a face of a polyhedron.
+// Bytes: 168 a face that emits, and 44 a point: 40 an area light, 5 a face of a polyhedron.
 #pragma once
 
 #include <cstdint>

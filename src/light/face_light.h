@@ -5,15 +5,14 @@
 //
 //     far      kernel cos cos / (pi r^2) A, from the sub-patch's centre to the face's: error about q
 //     middle   the kernel from each sample to the face's centre, times its mean over the face's Gauss points as seen
-// from
-//              the sub-patch's centre over the value between the centres: about q^2; faces of polyhedra only
+//              from the sub-patch's centre over the value between the centres: about q^2; faces of polyhedra only
 //     scaled   the same with the contour integral from the sub-patch's centre for the mean: about 4 (r_p r_e / d^2)^2
 //     near     Lambert's contour integral from each sample, exact: all else, and wherever one crosses the other's plane
 //
 // The part of it that arrives is that of fixed segments from the samples to the face's ends (light/emitter.h), each
 // weighted by its kernel, so that a point near the horizon counts little and penumbrae are smooth; in the far tier all
 // count the same. Where an aim finds nothing in the way no segment is sent, and none is counted.
-// Stack: 400 bytes; no memory.
+// Stack: 1 KiB; no memory.
 #pragma once
 
 #include <cstdint>

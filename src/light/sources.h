@@ -2,8 +2,7 @@
 // of an area or polyhedral light do these? (paper 2.1)
 //
 // With flags a light is aimed at once from all samples of a sub-patch, and the faces of it again: where nothing can
-// come between, no segment is sent. Bytes: 104 a light, and those of light/emitter.h and
-// light/patch_aims.h.
+// come between, no segment is sent. Bytes: 104 a light, and those of light/emitter.h and light/patch_aims.h.
 #pragma once
 
 #include <cstdint>

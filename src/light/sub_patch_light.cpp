@@ -33,9 +33,8 @@ struct Fine {
   bool used = false;
 };
 
-/// Whether the visible parts disagree. Values that a light doesn't
-/// shine on (outside its distribution, behind it) say nothing about what is in the way, unless segments were sent all
-/// the same.
+/// Whether the visible parts disagree. Values that a light doesn't shine on (outside its distribution, behind it) say
+/// nothing about what is in the way, unless segments were sent all the same.
 bool disagree(const Received* received, std::uint32_t count, bool all_traced) {
   double least = 1, most = 0;
   for (std::uint32_t k = 0; k < count; ++k) {
@@ -84,17 +83,18 @@ class SubPatch {
   Sample at(const Vec3& point) const { return sample_at(sources_.scene(), sources_.geometry(), receiver_, point); }
   void place_probes();
   void add_point(std::uint32_t l);
-  void add_faces(std::uint32_t l);
+  // Not inlined: the stack of one is needed while the others' isn't.
+  [[gnu::noinline]] void add_faces(std::uint32_t l);
   void add_uniform(std::uint32_t l, const Received* received, const double* weight, std::uint32_t count);
-  void sample_finely(std::uint32_t l, const Received* probed, bool near, double mean);
+  [[gnu::noinline]] void sample_finely(std::uint32_t l, const Received* probed, bool near, double mean);
   double centre_sees(std::uint32_t l);
-  Received near_mean(std::uint32_t l) const;
-  void look_finely(std::uint32_t l, const Received& mean);
+  [[gnu::noinline]] Received near_mean(std::uint32_t l) const;
+  [[gnu::noinline]] void look_finely(std::uint32_t l, const Received& mean);
   double fine_weight(std::uint32_t k) const { return grid_.fine(k).weight * grid_.weight_at(grid_.fine(k).at); }
   void add_to_fine(std::uint32_t l, std::uint32_t k, const Received& received, double correction);
-  void add_fine();
+  [[gnu::noinline]] void add_fine();
   bool bent(const Received* received) const;
-  bool all_hidden();
+  [[gnu::noinline]] bool all_hidden();
   std::uint32_t hidden_of(std::uint32_t samples) const;
   double colour(std::uint32_t l, std::uint32_t channel) const { return sources_.light(l).colour.c[channel]; }
   std::uint32_t channels() const { return sources_.scene().channels; }

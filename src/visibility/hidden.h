@@ -19,8 +19,8 @@ namespace shodo {
 
 inline constexpr std::uint32_t kMostHiddenSamples = 16;
 
-/// Which of up to 16 samples are hidden, a bit each; `normal` is their surface's, unit. With `only_if_all` the search may
-/// end when one isn't, and the answer is 0 then. A wide aim of the intersector is no longer valid then.
+/// Which of up to 16 samples are hidden, a bit each; `normal` is their surface's, unit. With `only_if_all` the search
+/// ends when one isn't, and the answer is 0 then. Wide aims of the intersector are not valid afterwards.
 std::uint32_t hidden_samples(Intersector& intersector, std::span<const LatticePoint> samples, const Vec3& normal,
                              bool only_if_all);
 

@@ -21,7 +21,7 @@ std::int64_t along(const LatticeVector& m, const LatticePoint& q, const LatticeP
 bool line_meets(const Triangle& triangle, const LatticePoint& p, const LatticeVector& d, std::int64_t through) {
   const std::int32_t dx = static_cast<std::int32_t>(d.x), dy = static_cast<std::int32_t>(d.y),
                      dz = static_cast<std::int32_t>(d.z);
-  const LatticePoint &b = triangle.b;
+  const LatticePoint& b = triangle.b;
   const std::int32_t bx = b.x - p.x, by = b.y - p.y, bz = b.z - p.z;
   const LatticeVector m{product(dy, bz) - product(dz, by), product(dz, bx) - product(dx, bz),
                         product(dx, by) - product(dy, bx)};

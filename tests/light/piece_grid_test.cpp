@@ -111,5 +111,42 @@ TEST(PieceGrid, WeightsTheHalvesOfAConcavePiece) {
   }
 }
 
+double factorial(std::uint32_t n) { return n < 2 ? 1 : n * factorial(n - 1); }
+
+/// The mean of s^a t^b over the unit square, or over the triangle (0, 0), (1, 0), (0, 1).
+double monomial_mean(std::uint32_t corners, std::uint32_t a, std::uint32_t b) {
+  if (corners == 4) return 1.0 / ((a + 1) * (b + 1));
+  return 2 * factorial(a) * factorial(b) / factorial(a + b + 2);
+}
+
+/// The largest degree up to which a rule is exact: in s and in t each on the square, of both together on the triangle.
+std::uint32_t exact_degree(const Piece& piece, bool fine) {
+  const PieceGrid grid(piece, 4);
+  for (std::uint32_t degree = 0;; ++degree) {
+    for (std::uint32_t a = 0; a <= degree; ++a) {
+      for (std::uint32_t b = 0; b <= degree; ++b) {
+        if (piece.corners == 3 && a + b > degree) continue;
+        double sum = 0, weight = 0;
+        for (std::uint32_t k = 0; k < (fine ? grid.fine_count() : 4); ++k) {
+          const PieceGrid::Weighted at = fine ? grid.fine(k) : PieceGrid::Weighted{grid.gauss(k), 0.25};
+          sum += at.weight * std::pow(at.at.s, a) * std::pow(at.at.t, b);
+          weight += at.weight;
+        }
+        EXPECT_NEAR(weight, 1, 1e-15);
+        if (std::fabs(sum - monomial_mean(piece.corners, a, b)) > 1e-15) return degree - 1;  // some roundings of 1
+      }
+    }
+  }
+}
+
+TEST(PieceGrid, RulesAreExactToTheirDegreeAndNoFurther) {
+  const Piece four = quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}),
+              three = triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  EXPECT_EQ(exact_degree(four, false), 3u);
+  EXPECT_EQ(exact_degree(four, true), 5u);
+  EXPECT_EQ(exact_degree(three, false), 2u);
+  EXPECT_EQ(exact_degree(three, true), 5u);
+}
+
 }  // namespace
 }  // namespace shodo

@@ -285,6 +285,42 @@ TEST(Hidden, UnderABoxThatLeansOnAWallAndHasNoBack) {
   }
 }
 
+TEST(Hidden, SamplesTogetherAreFoundAsOneByOne) {
+  Random random(11);
+  HandMadeScene scene;
+  scene.box({0, 0, 0}, {4, 4, 3}, true);
+  for (int k = 0; k < 20; ++k) {
+    const Vec3 low{3 * random.unit(), 3 * random.unit(), -0.2 + 0.3 * random.unit()};
+    scene.box(low, low + Vec3{0.2 + random.unit(), 0.2 + random.unit(), 0.2 + random.unit()});
+  }
+  scene.place();
+  ASSERT_TRUE(scene.status.done());
+  Intersector off(scene.geometry), on(scene.geometry, scene.scene, FlagMode::kAuto);
+  ASSERT_TRUE(on.start(scene.arena));
+  std::uint32_t all_hidden = 0, mixed = 0;
+  for (int k = 0; k < 300; ++k) {
+    LatticePoint samples[kMostHiddenSamples];
+    const std::uint32_t count = 1 + random.below(kMostHiddenSamples);
+    const double size = random.below(2) == 0 ? 0.05 : 1.5;
+    const Vec3 corner = Vec3{0.1 + 2.3 * random.unit(), 0.1 + 2.3 * random.unit(), 0} - scene.scene.origin;
+    std::uint32_t expected = 0;
+    for (std::uint32_t s = 0; s < count; ++s) {
+      const Vec3 point = corner + size * Vec3{random.unit(), random.unit(), 0};
+      samples[s] = sample_point(scene.scene, scene.geometry, 0, 0, point);
+      expected |= hidden_samples(off, {&samples[s], 1}, {0, 0, 1}, false) << s;
+    }
+    const std::uint32_t all = (std::uint32_t{1} << count) - 1;
+    for (Intersector* intersector : {&off, &on}) {
+      EXPECT_EQ(hidden_samples(*intersector, {samples, count}, {0, 0, 1}, false), expected);
+      EXPECT_EQ(hidden_samples(*intersector, {samples, count}, {0, 0, 1}, true) == all, expected == all);
+    }
+    all_hidden += expected == all ? 1 : 0;
+    mixed += expected != 0 && expected != all ? 1 : 0;
+  }
+  EXPECT_GT(all_hidden, 20u);
+  EXPECT_GT(mixed, 20u);
+}
+
 TEST(Intersector, NearestMatchesTheTwin) {
   Random random(5);
   std::uint64_t hits = 0, ties = 0;

@@ -62,6 +62,7 @@ int main(int count, char** words) {
   if (!status.done()) return fail(status.message);
   std::printf("picture %016llx\n", static_cast<unsigned long long>(hash));
   const shodo::Statistics& counted = statistics(*model);
-  std::printf("rows %u,%u,%u,%u\n", counted.rows_kept, counted.rows_recomputed, counted.lit_again, counted.placed_again);
+  std::printf("rows %u,%u,%u,%u\n", counted.rows_kept, counted.rows_recomputed, counted.lit_again,
+              counted.placed_again);
   return 0;
 }
