@@ -187,7 +187,7 @@ Table rules_table(const SceneResults& scene) {
                           saved(r.statistics.form_factors_computed, none.statistics.form_factors_computed),
                           saved(r.statistics.nonzeros, none.statistics.nonzeros),
                           bounded ? Cell::real(loss.bound_lx) : Cell{}, Cell::real(loss.largest_lx),
-                          bounded ? Cell::words(loss.largest_lx <= loss.bound_lx ? "yes" : "no") : Cell{},
+                          bounded ? Cell::words(loss.within_bound() ? "yes" : "no") : Cell{},
                           Cell::real(loss.mean_lx),
                           scene.mean_lx > 0 ? Cell::percent(loss.mean_lx / scene.mean_lx) : Cell{},
                           Cell::percent(r.map.ambient), Cell::percent(none.map.ambient)});
@@ -259,8 +259,9 @@ void add_rules_chapter(Document& document, const std::vector<SceneResults>& scen
       "the dropped columns j, E_j the total illuminance that the case finds there, over 1 - the largest reflectance; "
       "that of rule 1 is the largest ambient illuminance of the emptied rows; together their sum. Both speak of one "
       "matrix: as soon as a column is dropped no row is scaled up to 1 any more, and what scaling would have added is "
-      "lost on top. So a loss may be above its bound (within bound: no); with --scale-rows off it can't. Rule 3 and "
-      "blocks have an estimated error and no bound.");
+      "lost on top. So a loss may be above its bound (within bound: no; what the solver may have made wrong of both "
+      "solutions is allowed for); with --scale-rows off it can't. Rule 3 and blocks have an estimated error and no "
+      "bound.");
   for (const SceneResults& scene : scenes) {
     document.heading(3, scene.name);
     document.blocks.emplace_back(rules_table(scene));
