@@ -166,6 +166,7 @@ Table rules_table(const SceneResults& scene) {
                    {"nonzeros_saved", "non-zeros saved"},
                    {"bound_lx", "bound on the loss, lx"},
                    {"largest_loss_lx", "largest loss, lx"},
+                   {"within_bound", "within bound", true},
                    {"mean_loss_lx", "mean loss, lx"},
                    {"mean_loss", "mean loss, of the mean"},
                    {"ambient_error", "ambient error"},
@@ -186,6 +187,7 @@ Table rules_table(const SceneResults& scene) {
                           saved(r.statistics.form_factors_computed, none.statistics.form_factors_computed),
                           saved(r.statistics.nonzeros, none.statistics.nonzeros),
                           bounded ? Cell::real(loss.bound_lx) : Cell{}, Cell::real(loss.largest_lx),
+                          bounded ? Cell::words(loss.within_bound() ? "yes" : "no") : Cell{},
                           Cell::real(loss.mean_lx),
                           scene.mean_lx > 0 ? Cell::percent(loss.mean_lx / scene.mean_lx) : Cell{},
                           Cell::percent(r.map.ambient), Cell::percent(none.map.ambient)});
@@ -255,9 +257,11 @@ void add_rules_chapter(Document& document, const std::vector<SceneResults>& scen
       "Each case against the same case without rules, patch by patch: the largest loss of illuminance on any patch in "
       "any channel, and the area mean (negative: light was gained). The bound of rule 2 is the largest rho_j E_j over "
       "the dropped columns j, E_j the total illuminance that the case finds there, over 1 - the largest reflectance; "
-      "that of rule 1 is the largest ambient illuminance of the emptied rows; together their sum. Both are bounds for "
-      "exact rows: where a rule drops something the row is not scaled to 1 any more, which adds to the loss. Rule 3 "
-      "and blocks have an estimated error and no bound.");
+      "that of rule 1 is the largest ambient illuminance of the emptied rows; together their sum. Both speak of one "
+      "matrix: as soon as a column is dropped no row is scaled up to 1 any more, and what scaling would have added is "
+      "lost on top. So a loss may be above its bound (within bound: no; what the solver may have made wrong of both "
+      "solutions is allowed for); with --scale-rows off it can't. Rule 3 and blocks have an estimated error and no "
+      "bound.");
   for (const SceneResults& scene : scenes) {
     document.heading(3, scene.name);
     document.blocks.emplace_back(rules_table(scene));

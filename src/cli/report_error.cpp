@@ -175,6 +175,8 @@ RuleLoss rule_loss(const PatchLight& none, const PatchLight& ruled, const Rules&
       const std::size_t at = i * ruled.channels + c;
       most_reflectance = std::max(most_reflectance, ruled.reflectance[at]);
       reflected = std::max(reflected, ruled.reflectance[at] * (ruled.direct[at] + ruled.ambient[at]));
+      loss.brightest_lx = std::max(
+          {loss.brightest_lx, none.direct[at] + none.ambient[at], ruled.direct[at] + ruled.ambient[at]});
       const double less = none.ambient[at] - ruled.ambient[at];
       loss.largest_lx = std::max(loss.largest_lx, less);
       lost += none.area[i] * less;

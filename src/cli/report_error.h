@@ -71,6 +71,10 @@ struct RuleLoss {
   double bound_lx = 0;
   double largest_lx = 0;      // over patches and channels
   double mean_lx = 0;         // area mean, over channels; negative if light was gained
+  double brightest_lx = 0;    // the largest illuminance of either
+  double solver_lx = 0;       // what the solver may have made wrong of both; evaluate() knows
+
+  bool within_bound() const { return largest_lx <= bound_lx + solver_lx; }
 };
 
 /// Bounds. Rule 2: if columns D are dropped from E = E0 + R E, the solution Ê of the rest loses at most

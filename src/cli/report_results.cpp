@@ -61,6 +61,8 @@ SceneResults evaluate(std::string name, std::vector<ReportCase> cases, std::vect
     const std::size_t plain = twin(cases, cases[k], cases[k].options.flags, Rules{});
     if (has_rules(cases[k].options) && plain < cases.size()) {
       result.loss = rule_loss(jobs[plain + 1].patches, job.patches, cases[k].options.rules);
+      result.loss->solver_lx = result.loss->brightest_lx * (job.statistics.solution_bound +
+                                                            jobs[plain + 1].statistics.solution_bound);
       result.without_rules = plain;
     }
     const std::size_t off = twin(cases, cases[k], FlagMode::kOff, cases[k].options.rules);

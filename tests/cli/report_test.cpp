@@ -191,6 +191,7 @@ TEST(ReportRules, LossAndBoundOfRule2) {
   EXPECT_EQ(loss.columns, 2u);
   EXPECT_EQ(loss.rows, 0u);
   EXPECT_DOUBLE_EQ(loss.largest_lx, 5);
+  EXPECT_DOUBLE_EQ(loss.brightest_lx, 110);
   EXPECT_DOUBLE_EQ(loss.mean_lx, (1 * 1 + 1 * 5 + 2 * 2) / 4.0);
   EXPECT_NEAR(loss.bound_lx, 0.8 * 28 / (1 - 0.8), 1e-12);  // against 0.5 * 21
 }
@@ -241,6 +242,60 @@ TEST(ReportRules, CountsAndBoundsAreThoseOfTheSolver) {
     EXPECT_LE(loss.largest_lx, loss.bound_lx + 0.01) << k;  // the solver's tolerance
   }
   EXPECT_GT(jobs[1].statistics.columns_emptied, 10u);
+}
+
+/// A report of four cases: without rules, and with a loss of 3 lx over its bound, just within it, and without one.
+Document document_of_losses() {
+  SceneResults scene;
+  scene.name = "room";
+  scene.mean_lx = 100;
+  const struct {
+    Rules rules;
+    double bound_lx, solver_lx;
+  } losses[] = {{{}, 0, 0}, {{.rule2 = true}, 2.5, 0.25}, {{.rule1 = true}, 2.75, 0.25}, {{.rule3 = true}, 4, 0}};
+  for (const auto& [rules, bound_lx, solver_lx] : losses) {
+    Options options;
+    options.rules = rules;
+    scene.cases.push_back({static_cast<std::uint32_t>(scene.cases.size()) + 1, CaseGroup::kRules, options, 1, {}});
+    CaseResult result;
+    if (!same_rules(rules, {})) result.loss = RuleLoss{0, 0, bound_lx, 3, 1, 100, solver_lx};
+    scene.results.push_back(result);
+  }
+  return report_document({scene}, "");
+}
+
+/// What stands between the n-th and the next `separator` of the line.
+std::string part_of(std::string line, std::size_t n, const std::string& separator) {
+  for (; n > 0; --n) {
+    const std::size_t at = line.find(separator);
+    if (at == std::string::npos) return "";
+    line.erase(0, at + separator.size());
+  }
+  return line.substr(0, line.find(separator));
+}
+
+TEST(ReportRules, SaysWhetherALossIsWithinItsBound) {
+  const Document document = document_of_losses();
+  std::string csv;
+  for (const NamedText& file : csv_files(document)) csv = file.name == "rules.csv" ? file.text : csv;
+  const std::vector<std::string> rows = lines_of(csv);
+  ASSERT_EQ(rows.size(), 4u);
+  std::size_t column = 0;
+  while (column < 20 && part_of(rows[0], column, ",") != "within_bound") ++column;
+  EXPECT_EQ(part_of(rows[1], column, ","), "no") << "3 of 2.5 and 0.25 lx";
+  EXPECT_EQ(part_of(rows[2], column, ","), "yes") << "3 of 2.75 and 0.25 lx";
+  EXPECT_EQ(part_of(rows[3], column - 2, ",") + part_of(rows[3], column, ","), "") << "rule 3 has no bound";
+  // A bar more before the first cell; there is no column for the scene.
+  std::vector<std::string> shown;
+  bool there = false;
+  for (const std::string& line : lines_of(markdown_text(document))) {
+    there = there || line.find("| within bound |") != std::string::npos;
+    if (there && line.starts_with("| ")) shown.push_back(part_of(line, column, "|"));
+  }
+  EXPECT_EQ(shown, (std::vector<std::string>{" within bound ", " no ", " yes ", " - "}));
+  const std::string html = html_text(document);
+  EXPECT_NE(html.find("within bound</th>"), std::string::npos);
+  EXPECT_NE(html.find(">no</td>"), std::string::npos);
 }
 
 // ---- The list of cases
