@@ -1,5 +1,6 @@
 #include "ambient/near_factor.h"
 
+#include "base/check.h"
 #include <array>
 
 #include "light/polygon_factor.h"
@@ -143,9 +144,10 @@ void add_refined(const Look& look, const Cell& root, double tolerance, NearFacto
   }
 }
 
-constexpr std::uint32_t kMostCut = 5;
+/// A plane cuts two corners off a saddle, each on its own: two are left, and four cuts.
+constexpr std::uint32_t kMostCut = 6;
 
-/// The part of a convex cell in front of a plane (Sutherland and Hodgman 1974); returns its corners.
+/// The part of a cell in front of a plane (Sutherland and Hodgman 1974); returns its corners.
 std::uint32_t cut(const Cell& cell, const Vec3& on_plane, const Vec3& normal, double flat, Vec3* to) {
   double height[4];
   for (std::uint32_t k = 0; k < cell.corners; ++k) {
@@ -161,6 +163,7 @@ std::uint32_t cut(const Cell& cell, const Vec3& on_plane, const Vec3& normal, do
       to[count++] = cell.corner[k] + part * (cell.corner[next] - cell.corner[k]);
     }
   }
+  SHODO_CHECK(count <= kMostCut);
   return count;
 }
 

@@ -168,6 +168,20 @@ TEST(FormFactor, APatchThroughTheOthersPlaneCountsWithItsPartInFront) {
   }
 }
 
+TEST(FormFactor, ASaddleThatAPlaneCutsTwiceStaysWithinBounds) {
+  // Its corners lie above and below the floor by turns, so that two of them, and four cuts, are left of it.
+  const std::string floor = quad("floor_", {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}});
+  const std::string saddle = quad("saddle", {{-0.5, -0.5, 0.3}, {-0.5, 0.5, -0.1}, {0.5, 0.5, 0.3}, {0.5, -0.5, -0.1}});
+  for (const double tiers : {0.0, 1e-3}) {
+    Options options = exact_rows();
+    options.tiers = tiers;
+    const double f = first_to_second(saddle + floor, options);
+    EXPECT_GT(f, 0);
+    EXPECT_LT(f, 1);
+    EXPECT_NEAR(first_to_second(floor + saddle, options) * 16, f, 0.2);  // areas 16 and about 1
+  }
+}
+
 /// Slow and obvious: the kernel summed over m x m points of each of two quadrilaterals that are planar or nearly.
 double summed_exchange(const Vec3* p, const Vec3* q, int m) {
   const auto place = [](const Vec3* c, double s, double t) {
