@@ -117,7 +117,9 @@ bool keeps_geometry(const Model& model) {
   const std::uint64_t patches = model.after_patches + flags + direct_patch_bytes(scene);
   const std::uint64_t solved = patches + ambient_result_bytes(scene) + direct_sub_patch_bytes(scene);
   const std::uint64_t ambient = smallest_ambient_bytes(scene, model.geometry, options, SurfacesKeep::kGeometry);
-  std::uint64_t most = patches + blockers + ambient + expected_row_bytes(scene, options);
+  const std::uint64_t rows = expected_row_bytes(scene, options);
+  // Geometry costs less to find again than the direct light that would have to make room for it.
+  std::uint64_t most = patches + blockers + ambient + rows + (rows > 0 ? direct_sub_patch_bytes(scene) : 0);
   most = larger(most, solved + blockers + Sources::bytes(scene));
   most = larger(most, solved + map_bytes(scene, options));
   return most <= model.arena.capacity();
