@@ -49,9 +49,13 @@ void plan_light(const Model& model, MemoryPlan& plan) {
   const std::uint64_t surfaces = surfaces_bytes(scene, options, SurfacesKeep::kNothing);
   const std::uint64_t ambient = smallest_ambient_bytes(scene, model.geometry, options, SurfacesKeep::kNothing);
   plan.add("ambient light of the patches", "8 c n", result, kAmbient | kAgain | kMap);
-  plan.add("surfaces", "12 a node + 40 blocks + 33 meshes + 3,712; their geometry is found again", surfaces, kAmbient);
-  plan.add("solution", "16 c + 8 a node + one row + lists of links + the coarse correction; rows: what is left",
-           ambient - result - surfaces, kAmbient);
+  const std::uint64_t links = link_bytes(scene, model.geometry, options);
+  plan.add("surfaces", "12 a node + 32 blocks + 33 meshes (9 with blocks) + 3,716; their geometry is found again",
+           surfaces, kAmbient);
+  plan.add("which nodes are linked", "2 n a level of blocks; with blocks 20 a node + 4 blocks + 32 meshes + 12,288 + "
+           "17 facets", links, kAmbient);
+  plan.add("solution", "16 c + 8 a node (+ 2 with rules 1 and 2, 16 with 2+) + one row + the coarse correction; "
+           "rows: what is left", ambient - result - surfaces - links, kAmbient);
   plan.add("direct light of the sub-patches", "(4 c + 1) s; spare: given up to the rows", direct_sub_patch_bytes(scene),
            kAgain | kMap | kPicture);
 }
@@ -112,8 +116,10 @@ bool keeps_geometry(const Model& model) {
   const std::uint64_t blockers = Intersector::bytes(model.geometry, options.flags);
   const std::uint64_t patches = model.after_patches + flags + direct_patch_bytes(scene);
   const std::uint64_t solved = patches + ambient_result_bytes(scene) + direct_sub_patch_bytes(scene);
-  std::uint64_t most = patches + blockers + smallest_ambient_bytes(scene, model.geometry, options, SurfacesKeep::kGeometry) +
-                       expected_row_bytes(scene, options);
+  const std::uint64_t ambient = smallest_ambient_bytes(scene, model.geometry, options, SurfacesKeep::kGeometry);
+  const std::uint64_t rows = expected_row_bytes(scene, options);
+  // Geometry costs less to find again than the direct light that would have to make room for it.
+  std::uint64_t most = patches + blockers + ambient + rows + (rows > 0 ? direct_sub_patch_bytes(scene) : 0);
   most = larger(most, solved + blockers + Sources::bytes(scene));
   most = larger(most, solved + map_bytes(scene, options));
   return most <= model.arena.capacity();

@@ -13,33 +13,50 @@ namespace shodo {
 
 namespace {
 
+/// The first pass notes two errors a node. The fluxes sent aren't there yet: they have room for as many as there are
+/// channels. In a grey scene the second stand where the answer will be, but that is by patch, too few with blocks.
+/// With rule 2+ errors must stay while rows are solved.
+std::size_t own_errors(const Scene& scene, const Rules& rules) {
+  const std::size_t nodes = node_count(scene, rules);
+  if (rules.rule2_repeated) return 2 * nodes;
+  return scene.channels == 1 && nodes > scene.patch_count ? nodes : 0;
+}
+
+FirstPassScratch first_pass_scratch(const Solver& solver, const Rules& rules, std::size_t nodes) {
+  if (rules.rule2_repeated) return {solver.row_errors.first(nodes), solver.row_errors.subspan(nodes), solver.gathered};
+  const std::span<double> second = solver.sent.size() >= 2 * nodes ? solver.sent.subspan(nodes, nodes)
+                                   : solver.row_errors.empty()     ? solver.ambient_lx
+                                                                   : solver.row_errors;
+  return {solver.sent.first(nodes), second, solver.gathered};
+}
+
 /// Taken before the rows, which then fill what is left.
-bool take_solver(Arena& arena, const Scene& scene, std::size_t nodes, Solver& solver) {
+bool take_solver(Arena& arena, const Scene& scene, const Rules& rules, std::size_t nodes, Solver& solver) {
   const std::size_t values = nodes * scene.channels;
   const std::size_t groups = Coarse::group_count(scene);
   return arena.take("fluxes sent", values, solver.sent) && arena.take("fluxes gathered", values, solver.gathered) &&
          arena.take("mesh areas", groups, solver.group_area) &&
          arena.take("mesh reflectances", groups * scene.channels, solver.group_reflectance) &&
-         arena.take("mesh corrections", groups, solver.group_delta);
+         arena.take("mesh corrections", groups, solver.group_delta) &&
+         arena.take("row errors", own_errors(scene, rules), solver.row_errors);
 }
 
 std::uint64_t solver_bytes(const Scene& scene, const Options& options) {
   const std::uint64_t values = std::uint64_t{node_count(scene, options.rules)} * scene.channels;
-  return 16 * values + 8 * std::uint64_t{Coarse::group_count(scene)} * (2 + scene.channels);
+  return 16 * values + 8 * std::uint64_t{Coarse::group_count(scene)} * (2 + scene.channels) +
+         8 * std::uint64_t{own_errors(scene, options.rules)};
 }
 
 /// Once; with rule 2+ until no column that is left out is bright.
 Status solve_in_rounds(const DirectLight& direct, Intersector& intersector, const Progress& progress, Matrix& matrix,
                        Solver& solver, Statistics& statistics) {
-  const bool own_errors = !matrix.own_errors.empty();
-  const std::size_t n = own_errors ? 0 : matrix.surfaces.size();
-  const FirstPassScratch first{solver.sent.first(n), solver.ambient_lx.first(n), solver.gathered};
+  const FirstPassScratch first = first_pass_scratch(solver, matrix.options->rules, matrix.surfaces.size());
   do {
     Status status = build_matrix(direct, progress, intersector, first, matrix, statistics);
     statistics.segments_ambient = intersector.segments(LightSet::kAmbient);
     statistics.tests_ambient = intersector.tests(LightSet::kAmbient);
     if (!status.done()) return status;
-    if (!own_errors) {
+    if (first.visibility_errors.data() == solver.ambient_lx.data()) {
       for (double& value : solver.ambient_lx) value = 0;
     }
     status = solve_rows(direct, intersector, progress, matrix, solver, statistics);
@@ -65,7 +82,7 @@ Status light_ambiently(const Scene& scene, const Geometry& geometry, std::span<c
   Status status = gather_surfaces(scene, geometry, patches, direct, options, arena, matrix.surfaces,
                                   patches.empty() ? SurfacesKeep::kNothing : SurfacesKeep::kGeometry);
   if (!status.done()) return status;
-  if (!take_solver(arena, scene, matrix.surfaces.size(), solver)) return arena.refused();
+  if (!take_solver(arena, scene, options.rules, matrix.surfaces.size(), solver)) return arena.refused();
   if (n == 0) return status;
   status = prepare_matrix(direct, arena, matrix);
   if (!status.done()) return status;
@@ -86,8 +103,13 @@ std::uint64_t smallest_ambient_bytes(const Scene& scene, const Geometry& geometr
   return result + before_rows + (scene.patch_count > 0 ? matrix_bytes(scene, geometry, options) : 0);
 }
 
+std::uint64_t link_bytes(const Scene& scene, const Geometry& geometry, const Options& options) {
+  if (scene.patch_count == 0) return 0;
+  return LinkWalk::bytes(scene, options) + BlockTools::bytes(scene, geometry, options);
+}
+
 std::uint64_t expected_row_bytes(const Scene& scene, const Options& options) {
-  constexpr std::uint64_t kBytesANode = 128;
+  constexpr std::uint64_t kBytesANode = 96;
   return options.rules.blocks ? kBytesANode * node_count(scene, options.rules) : 0;
 }
 

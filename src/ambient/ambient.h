@@ -23,8 +23,8 @@ struct AmbientLight {
 /// Solves E_i = E0_i + sum_j rho_j F_ij E_j, F_ij the fraction of the flux leaving i that reaches j (deviation D1).
 /// Without `patches` their geometry, and that of blocks, is found again whenever it is looked at. Errors: kMemory,
 /// kInterrupted.
-Status light_ambiently(const Scene& scene, const Geometry& geometry, std::span<const Patch> patches, const DirectLight& direct,
-                       Intersector& intersector, const Options& options, const Progress& progress, Arena& arena,
-                       AmbientLight& ambient, Statistics& statistics);
+Status light_ambiently(const Scene& scene, const Geometry& geometry, std::span<const Patch> patches,
+                       const DirectLight& direct, Intersector& intersector, const Options& options,
+                       const Progress& progress, Arena& arena, AmbientLight& ambient, Statistics& statistics);
 
 }  // namespace shodo

@@ -14,16 +14,21 @@ namespace shodo {
 std::uint64_t ambient_result_bytes(const Scene& scene);
 
 /// The least the stage needs of the arena, AmbientLight included, with no row kept:
-///   8 n c (result) + 16 n c (fluxes) + 8 n (factors) + 4 n (one row; 10 n with double values) + the coarse correction, at
-///   most 23 KiB + surfaces_bytes(): 64 n with 4 samples each + 96 a shape where geometry is kept, else 12 n.
+///   8 n c (result) + 16 n c (fluxes) + 8 n (factors) + 4 n (one row; 10 n with double values) + the coarse correction,
+///   at most 23 KiB + link_bytes() + surfaces_bytes(): 64 n with 4 samples each + 96 a shape where geometry is kept,
+///   else 12 n.
 /// n patches, c channels; with blocks n counts nodes in all but the result.
 /// Everything that the arena has beyond it goes to rows, and is given back at the end of the stage: what follows can
 /// use all but AmbientLight, so no reserve is kept for it.
 std::uint64_t smallest_ambient_bytes(const Scene& scene, const Geometry& geometry, const Options& options,
                                      SurfacesKeep keep = SurfacesKeep::kGeometry);
 
-/// What rows are expected to take, to judge whether geometry should make room for them; 0: no guess. Blocks have some 30
-/// links a node, at 4 bytes.
+/// Of these: what tells which nodes are linked (ambient/link_walk.h, ambient/block_link.h). Nothing without rule 3 and
+/// blocks.
+std::uint64_t link_bytes(const Scene& scene, const Geometry& geometry, const Options& options);
+
+/// What rows are expected to take, to judge whether geometry should make room for them; 0: no guess. Blocks have some
+/// 21 links a node, at 4 bytes, and 4 to 8 bytes a row.
 std::uint64_t expected_row_bytes(const Scene& scene, const Options& options);
 
 }  // namespace shodo

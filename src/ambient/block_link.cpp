@@ -181,7 +181,8 @@ void BlockJudge::shoot(Shots& shots, std::uint32_t k, std::uint32_t l) {
 }
 
 /// The visible fraction, or the order to split. Segment (k, k ^ m ^ turn) is the k-th of round m: each round meets
-/// every sample of both ends once. `turn` differs from pair to pair, so that one segment a pair isn't always the same corner.
+/// every sample of both ends once. `turn` differs from pair to pair, so that one segment a pair isn't always the same
+/// corner.
 Step BlockJudge::look(const RowSide& side, const Pair& pair) {
   const std::uint32_t j = pair.j, points = surfaces_.cached_points, last = points - 1;
   const bool by_sixteen = within(pair.whole, kOfSixteen), full = pair.patches && !by_sixteen;

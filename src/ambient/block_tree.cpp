@@ -22,7 +22,11 @@ bool equal_areas(const PatchShape& shape) {
   return 1 + (a + b) <= (1 + kEqualAreas) * (1 - (a + b));
 }
 
-std::uint32_t patches_in(const MeshPart& part) { return (part.u1 - part.u0) * (part.v1 - part.v0); }
+std::uint32_t patches_in(const MeshPart& part) { return part.across() * part.up(); }
+
+MeshPart all_of(const Mesh& mesh) {
+  return {0, 0, static_cast<std::uint16_t>(mesh.nu), static_cast<std::uint16_t>(mesh.nv)};
+}
 
 std::uint32_t rounded_log2(std::uint32_t count) {
   std::uint32_t bits = 0;
@@ -46,7 +50,7 @@ TreeWalk::TreeWalk(const Scene& scene, const Mesh& mesh, const Rules& rules)
   const PatchShape shape = shape_of(cell_piece(scene, mesh, 0));
   length_u_ = length(shape.a) / mesh.nu;
   length_v_ = length(shape.b) / mesh.nv;
-  push({0, 0, mesh.nu, mesh.nv});
+  push(all_of(mesh));
 }
 
 void TreeWalk::push(const MeshPart& part) { waiting_[waiting_count_++] = part; }
@@ -54,7 +58,7 @@ void TreeWalk::push(const MeshPart& part) { waiting_[waiting_count_++] = part; }
 bool TreeWalk::next() {
   if (kind_ == TreeKind::kFlat && !started_) {
     started_ = true;
-    node_ = {{0, 0, mesh_->nu, mesh_->nv}, mesh_->patch_count() + 1, 0};
+    node_ = {all_of(*mesh_), mesh_->patch_count() + 1, 0};
     return true;
   }
   if (kind_ != TreeKind::kBinary) {
@@ -64,14 +68,14 @@ bool TreeWalk::next() {
   }
   if (waiting_count_ == 0) return false;
   const MeshPart part = waiting_[--waiting_count_];
-  const std::uint32_t across = part.u1 - part.u0, up = part.v1 - part.v0;
+  const std::uint32_t across = part.across(), up = part.up();
   node_ = {part, 2 * patches_in(part) - 1, part.v0 * mesh_->nu + part.u0};
   if (node_.nodes == 1) return true;
   MeshPart first = part, second = part;
   if (up == 1 || (across > 1 && across * length_u_ >= up * length_v_)) {
-    first.u1 = second.u0 = part.u0 + across / 2;
+    first.u1 = second.u0 = static_cast<std::uint16_t>(part.u0 + across / 2);
   } else {
-    first.v1 = second.v0 = part.v0 + up / 2;
+    first.v1 = second.v0 = static_cast<std::uint16_t>(part.v0 + up / 2);
   }
   push(second);
   push(first);

@@ -21,9 +21,12 @@ namespace shodo {
 /// The largest patch of a mesh may be so much larger than the smallest, relative, for rule 3.
 inline constexpr double kEqualAreas = 1.0 / 16;
 
-/// A rectangle of patches; u1 and v1 are one past the last.
+/// A rectangle of patches; u1 and v1 are one past the last. An edge has kMostPieces at most (scene/counts.cpp).
 struct MeshPart {
-  std::uint32_t u0 = 0, v0 = 0, u1 = 0, v1 = 0;
+  std::uint16_t u0 = 0, v0 = 0, u1 = 0, v1 = 0;
+
+  std::uint32_t across() const { return std::uint32_t{u1} - u0; }
+  std::uint32_t up() const { return std::uint32_t{v1} - v0; }
 };
 
 struct Block {
@@ -34,6 +37,7 @@ struct Block {
   std::uint32_t thin = 0;       // 1: some of its patches are
   double sending_root = 0;      // visible area of its senders over R: what its row sums count
 };
+static_assert(sizeof(Block) == 32, "memory_plan.cpp");
 
 /// One node of a mesh's tree, as it is built.
 struct TreeNode {

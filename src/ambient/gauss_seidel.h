@@ -43,6 +43,7 @@ struct Solver {
   std::span<double> group_area;
   std::span<double> group_reflectance;  // [c * groups + g]: mean by area
   std::span<double> group_delta;
+  std::span<double> row_errors;         // first pass only, where other arrays have no room for them (ambient.cpp)
 };
 
 /// Solves; `solver.gathered` is zero, the rest is filled here. Errors: kInterrupted.

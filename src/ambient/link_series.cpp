@@ -136,6 +136,7 @@ Status Places::take(Arena& arena, const Surfaces& s, const Rules& rules) {
   if (!arena.take("places of nodes", s.size(), nodes_) || !arena.take("places of meshes", s.mesh_at.size(), meshes_)) {
     return arena.refused();
   }
+  surfaces_ = &s;
   const double steps = s.geometry->lattice.steps_per_unit;
   for (std::uint32_t k = 0; k < s.mesh_at.size(); ++k) {
     meshes_[k] = place_mesh(s, k);
@@ -143,16 +144,21 @@ Status Places::take(Arena& arena, const Surfaces& s, const Rules& rules) {
       if (!(s.root_area[node] > 0)) continue;
       NodePlace& place = nodes_[node];
       put(place.centre, steps * s.patch(node).centre);
-      place.across = place.up = 1;
-      if (s.is_block(node)) {
-        const MeshPart& part = s.block(node).part;
-        place.across = static_cast<std::uint16_t>(part.u1 - part.u0);
-        place.up = static_cast<std::uint16_t>(s.triangular(node) ? place.across : part.v1 - part.v0);
-      }
       place.weight = static_cast<float>(s.patch(node).area / s.root_area[node] * steps * square_root(kInversePi));
     }
   }
   return {};
+}
+
+void Places::half_axes(std::uint32_t node, const MeshPlace& mesh, std::int32_t* a, std::int32_t* b) const {
+  std::uint32_t across = 1, up = 1;  // patches
+  if (surfaces_->is_block(node)) {
+    const MeshPart& part = surfaces_->block(node).part;
+    across = part.across();
+    up = mesh.kind == PlaceKind::kTriangle ? across : part.up();
+  }
+  stretch(mesh.a, across, a);
+  stretch(mesh.b, up, b);
 }
 
 LatticeBox Places::box(const Surfaces& s, std::uint32_t node, std::uint32_t place, bool whole) const {
@@ -178,8 +184,7 @@ LatticeBox Places::box(const Surfaces& s, std::uint32_t node, std::uint32_t plac
     }
   } else {
     std::int32_t a[3], b[3];
-    stretch(mesh.a, at.across, a);
-    stretch(mesh.b, at.up, b);
+    half_axes(node, mesh, a, b);
     const int by = mesh.kind == PlaceKind::kTriangle ? 1 : 0;
     for (int k = 0; k < 3; ++k) half[k] = (magnitude(a[k]) + magnitude(b[k])) << by;
   }
@@ -205,8 +210,7 @@ PlacedSide Places::side(std::uint32_t node, std::uint32_t mesh_place) const {
   PlacedSide side;
   const NodePlace& place = nodes_[node];
   const MeshPlace& mesh = meshes_[mesh_place];
-  stretch(mesh.a, place.across, side.a);
-  stretch(mesh.b, place.up, side.b);
+  half_axes(node, mesh, side.a, side.b);
   for (int k = 0; k < 3; ++k) {
     side.centre[k] = place.centre[k];
     side.normal[k] = mesh.normal[k];
@@ -223,8 +227,7 @@ LinkSeries Places::series(const PlacedSide& i, std::uint32_t j, std::uint32_t pl
   if (i.kind == PlaceKind::kOdd || mesh.kind == PlaceKind::kOdd) return link;
   const NodePlace& node = nodes_[j];
   std::int32_t a[3], b[3], way[3];
-  stretch(mesh.a, node.across, a);
-  stretch(mesh.b, node.up, b);
+  half_axes(j, mesh, a, b);
   std::uint32_t bits = static_cast<std::uint32_t>(i.reach) |
                        static_cast<std::uint32_t>(reach_of(a, b, mesh.kind == PlaceKind::kTriangle));
   for (int k = 0; k < 3; ++k) {

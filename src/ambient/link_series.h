@@ -14,7 +14,7 @@
 // A triangle counts as the parallelogram that has its moments: with edges a and b from corner 0, half axes
 // (a - b / 2) / sqrt 6 and b / sqrt 8. Other quadrilaterals, and concave ones, have no place here, nor have
 // pairs so near to each other's plane that rounding hides on which side they are (kOdd).
-// Bytes: 28 a node and 32 a mesh.
+// Bytes: 16 a node and 32 a mesh.
 #pragma once
 
 #include <cstdint>
@@ -39,12 +39,12 @@ struct MeshPlace {
   std::uint8_t flat = 0;  // bit k: all samples have the same coordinate along axis k
 };
 
-/// One node: centre in lattice steps; how many patches long and high; A / (R sqrt(pi)) in lattice steps.
+/// One node: centre in lattice steps; A / (R sqrt(pi)) in lattice steps.
 struct NodePlace {
   std::int32_t centre[3] = {0, 0, 0};
-  std::uint16_t across = 1, up = 1;
   float weight = 0;
 };
+static_assert(sizeof(NodePlace) == 16 && sizeof(MeshPlace) == 32, "memory_plan.cpp");
 
 /// The receiving end of a row.
 struct PlacedSide {
@@ -78,6 +78,10 @@ class Places {
   LinkSeries series(const PlacedSide& i, std::uint32_t j, std::uint32_t place) const;
 
  private:
+  /// Half axes of a node of the mesh, in lattice steps.
+  void half_axes(std::uint32_t node, const MeshPlace& mesh, std::int32_t* a, std::int32_t* b) const;
+
+  const Surfaces* surfaces_ = nullptr;
   std::span<NodePlace> nodes_;
   std::span<MeshPlace> meshes_;
 };

@@ -13,10 +13,13 @@ double diameter_squared(const PatchShape& shape, double longest_side) {
   return one > other ? one : other;
 }
 
+bool wide_nodes(std::size_t nodes) { return nodes > 0x10000; }
+
 }  // namespace
 
 std::uint64_t LinkWalk::bytes(const Scene& scene, const Options& options) {
-  return (4 * std::uint64_t{scene.patch_count} * block_depth(scene, options.rules) + 7) / 8 * 8;
+  const std::uint64_t a_node = wide_nodes(node_count(scene, options.rules)) ? 4 : 2;
+  return (a_node * scene.patch_count * block_depth(scene, options.rules) + 7) / 8 * 8;
 }
 
 Status LinkWalk::take(Arena& arena, const Surfaces& surfaces, const Sparsity& sparsity, const Options& options) {
@@ -24,8 +27,9 @@ Status LinkWalk::take(Arena& arena, const Surfaces& surfaces, const Sparsity& sp
   sparsity_ = &sparsity;
   const double diameters = options.rules.rule3_diameters > 0 ? options.rules.rule3_diameters : kRule3Diameters;
   diameters_squared_ = diameters * diameters;
-  const std::size_t words = std::size_t{surfaces.scene->patch_count} * block_depth(*surfaces.scene, options.rules);
-  return arena.take("links left", words, left_) ? Status{} : arena.refused();
+  wide_ = wide_nodes(surfaces.size());
+  const std::size_t nodes = std::size_t{surfaces.scene->patch_count} * block_depth(*surfaces.scene, options.rules);
+  return arena.take("links left", wide_ ? 2 * nodes : nodes, left_) ? Status{} : arena.refused();
 }
 
 std::uint32_t LinkWalk::mesh_of(std::uint32_t node) const {
@@ -63,8 +67,10 @@ void LinkWalk::open_level(std::uint32_t a) {
 
 void LinkWalk::leave(std::uint32_t b) {
   Level& level = level_[levels_ - 1];
-  SHODO_CHECK(level.last < left_.size());
-  left_[level.last++] = b;
+  const std::uint32_t at = level.last++;
+  SHODO_CHECK((wide_ ? 2 * at + 1 : at) < left_.size());
+  left_[wide_ ? 2 * at : at] = static_cast<std::uint16_t>(b);
+  if (wide_) left_[2 * at + 1] = static_cast<std::uint16_t>(b >> 16);
 }
 
 std::uint32_t LinkWalk::close_levels(std::uint32_t a) {

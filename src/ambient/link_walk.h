@@ -11,7 +11,7 @@
 //
 // Row a lists the links from node a to later ones, ascending. A block hands on to its parts the nodes for which it must
 // be split itself, so a pair of ancestors is judged once for all the rows below it. Rows may be asked for in any order;
-// ascending is fast. Bytes: 4 times the patches for each level of blocks.
+// ascending is fast. Bytes: 2 times the patches for each level of blocks, 4 with more than 65,536 nodes.
 #pragma once
 
 #include <cstdint>
@@ -83,7 +83,8 @@ class LinkWalk {
     if (surfaces_->is_block(a)) open_level(a);
     if (!top) {
       for (std::uint32_t k = above.first; k < above.last; ++k) {
-        descend(side, left_[k], surfaces_->end(left_[k]), judge, link);
+        const std::uint32_t node = left(k);
+        descend(side, node, surfaces_->end(node), judge, link);
       }
       return;
     }
@@ -107,11 +108,15 @@ class LinkWalk {
     }
   }
   void leave(std::uint32_t b);
+  std::uint32_t left(std::uint32_t k) const {
+    return wide_ ? left_[2 * k] | std::uint32_t{left_[2 * k + 1]} << 16 : left_[k];
+  }
 
   const Surfaces* surfaces_ = nullptr;
   const Sparsity* sparsity_ = nullptr;
   double diameters_squared_ = 0;
-  std::span<std::uint32_t> left_;
+  std::span<std::uint16_t> left_;  // a node in one word, or two
+  bool wide_ = false;              // two
   Level level_[kDeepest];
   std::uint32_t levels_ = 0;
 };

@@ -3,15 +3,19 @@
 namespace shodo {
 
 std::uint64_t LinkWorth::bytes(const Scene& scene, const Rules& rules) {
-  return rules.blocks ? 2 * ((4 * std::uint64_t{node_count(scene, rules)} + 7) / 8 * 8) : 0;
+  if (!rules.blocks) return 0;
+  const std::uint64_t blocks = block_count(scene, rules), nodes = scene.patch_count + blocks;
+  return (4 * nodes + 7) / 8 * 8 + (4 * blocks + 7) / 8 * 8;
 }
 
 Status LinkWorth::take(Arena& arena, const Surfaces& surfaces, const DirectLight& direct, const Rules& rules) {
   if (!rules.blocks) return {};
   const double error = rules.blocks_error > 0 ? rules.blocks_error : kBlocksError;
   allowed_ = error * error;
-  const std::size_t n = surfaces.size();
-  if (!arena.take("light sent", n, sent_) || !arena.take("unevenness", n, uneven_)) return arena.refused();
+  surfaces_ = &surfaces;
+  if (!arena.take("light sent", surfaces.size(), sent_) || !arena.take("unevenness", surfaces.blocks.size(), uneven_)) {
+    return arena.refused();
+  }
   estimate(surfaces, direct);
   return {};
 }
@@ -50,7 +54,7 @@ void LinkWorth::estimate(const Surfaces& s, const DirectLight& direct) {
       }
       const double mean_square = sum * sum / own, rest = squares - mean_square;
       sent_[node] = static_cast<float>(mean_square);
-      uneven_[node] = rest > 0 ? static_cast<float>(rest) : 0.0f;
+      uneven_[s.patch_at[node] - s.scene->patch_count] = rest > 0 ? static_cast<float>(rest) : 0.0f;
       continue;
     }
     double sum = 0;

@@ -1,4 +1,5 @@
 // What a link matters to the light of the scene, estimated by direct light alone (ours; paper 3.2 rule 3 carried on).
+// Bytes: 4 a node and 4 a block.
 #pragma once
 
 #include <cstdint>
@@ -21,14 +22,19 @@ class LinkWorth {
 
   /// Squares of what a node sends, and of how unevenly its parts do: (R B)^2 over (E R of the scene)^2.
   double sent(std::uint32_t node) const { return static_cast<double>(sent_[node]); }
-  double uneven(std::uint32_t node) const { return static_cast<double>(uneven_[node]); }
+  double uneven(std::uint32_t node) const {
+    if (!surfaces_->is_block(node)) return 0;
+    return static_cast<double>(uneven_[surfaces_->patch_at[node] - surfaces_->scene->patch_count]);
+  }
   /// REL^2.
   double allowed() const { return allowed_; }
 
  private:
   void estimate(const Surfaces& surfaces, const DirectLight& direct);
 
-  std::span<float> sent_, uneven_;
+  const Surfaces* surfaces_ = nullptr;
+  std::span<float> sent_;    // by node
+  std::span<float> uneven_;  // by block: a patch has no parts
   double allowed_ = 0;
 };
 

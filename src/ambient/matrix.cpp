@@ -139,11 +139,6 @@ void finish_row(FirstPass& pass, std::uint32_t i, const MeshWalk& at_i, const Up
   }
 }
 
-/// Blocks count where patches have no room to.
-bool has_own_errors(const Scene& scene, const Rules& rules) {
-  return rules.rule2_repeated || block_count(scene, rules) > 0;
-}
-
 std::size_t scratch_words(const Scene& scene, const Options& options) {
   const std::size_t nodes = node_count(scene, options.rules);
   return row_words(nodes > 0 ? nodes - 1 : 0, options.row_value_bits == 64);
@@ -209,17 +204,13 @@ const std::uint16_t* RowCursor::row(Matrix& matrix, Intersector& uncounted, std:
 
 Status prepare_matrix(const DirectLight& direct, Arena& arena, Matrix& matrix) {
   const Scene& scene = *matrix.surfaces.scene;
-  const Rules& rules = matrix.options->rules;
   const std::uint32_t n = matrix.surfaces.size();
-  Status status = matrix.sparsity.take(arena, matrix.surfaces, direct, rules);
+  Status status = matrix.sparsity.take(arena, matrix.surfaces, direct, matrix.options->rules);
   if (status.done()) status = matrix.tools.take(arena, matrix.surfaces, direct, *matrix.options);
   if (status.done()) status = matrix.walk.take(arena, matrix.surfaces, matrix.sparsity, *matrix.options);
   if (!status.done()) return status;
   if (!arena.take("row factors", n, matrix.factor)) return arena.refused();
   if (!arena.take("row scratch", scratch_words(scene, *matrix.options), matrix.row_words)) return arena.refused();
-  if (has_own_errors(scene, rules) && !arena.take("row errors", 2 * std::size_t{n}, matrix.own_errors)) {
-    return arena.refused();
-  }
   return matrix.coarse.take(arena, matrix.surfaces);
 }
 
@@ -227,10 +218,6 @@ Status build_matrix(const DirectLight& direct, const Progress& progress, Interse
                     const FirstPassScratch& scratch, Matrix& matrix, Statistics& statistics) {
   const std::uint32_t n = matrix.surfaces.size();
   FirstPass pass{matrix, direct, scratch, statistics};
-  if (!matrix.own_errors.empty()) {
-    pass.scratch.geometry_errors = matrix.own_errors.first(n);
-    pass.scratch.visibility_errors = matrix.own_errors.subspan(n);
-  }
   forget_sums(pass);
   RowErrors errors{pass.scratch.geometry_errors, pass.scratch.visibility_errors};
   RowCursor earlier[kGenerations];
@@ -258,9 +245,8 @@ Status build_matrix(const DirectLight& direct, const Progress& progress, Interse
 
 std::uint64_t matrix_bytes(const Scene& scene, const Geometry& geometry, const Options& options) {
   const std::uint64_t nodes = node_count(scene, options.rules);
-  const std::uint64_t errors = has_own_errors(scene, options.rules) ? 16 * nodes : 0;
   return Sparsity::bytes(scene, options.rules) + LinkWalk::bytes(scene, options) +
-         BlockTools::bytes(scene, geometry, options) + 8 * nodes + errors +
+         BlockTools::bytes(scene, geometry, options) + 8 * nodes +
          (2 * scratch_words(scene, options) + 7) / 8 * 8 + Coarse::bytes(scene);
 }
 

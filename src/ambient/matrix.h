@@ -16,8 +16,8 @@
 // Blocks. A link to a block stands for one to each patch in it, in proportion to their visible areas: with R_b^2 the
 // sum of R_j^2 over its patches, F_ij = f_i v_ib R_j^2 / R_b, which for equal areas is rule 3's F_im / p. So a block
 // has sums like a patch, and gives each of its parts c the share R_c / R_b of them. Bytes: 8 a node (f), one row of
-// scratch, the coarse matrix, 1 + 1 a node with rules 1 and 2, the lists of ambient/link_walk.h and 16 a node of
-// errors with blocks or rule 2+, and the rows.
+// scratch, the coarse matrix, 1 + 1 a node with rules 1 and 2, the lists of ambient/link_walk.h, with `blocks` what
+// ambient/block_link.h has, and the rows.
 #pragma once
 
 #include <cstdint>
@@ -49,7 +49,6 @@ struct Matrix {
   RowStore stores[kGenerations];       // of each generation the first rows, as many as fit
   std::span<std::uint16_t> row_words;  // scratch: a row that isn't kept
   std::span<double> factor;            // f_i, by node; of no meaning for blocks
-  std::span<double> own_errors;        // with blocks or rule 2+: geometry by node, then visibility
   Coarse coarse;
   double reflected[3] = {0, 0, 0};        // max over i of sum_j rho_j F_ij, by channel
   double reflected_upper[3] = {0, 0, 0};  // the same over j > i
@@ -65,8 +64,8 @@ struct Matrix {
 };
 static_assert(kGenerations == 6, "Matrix::Matrix");
 
-/// Arrays that the solver needs later and the first pass may use until then; one value a node. The errors may be empty
-/// where the matrix has its own.
+/// Arrays that the solver needs later and the first pass may use until then; one value a node. All are zero at first;
+/// with rule 2+ the errors must stay for later generations.
 struct FirstPassScratch {
   std::span<double> geometry_errors;
   std::span<double> visibility_errors;

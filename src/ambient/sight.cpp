@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::uint32_t kClusterFacets = 6;
 constexpr std::int32_t kLarge = kLatticeHalf / 4;  // facets longer than that are clusters of their own
+constexpr std::uint8_t kNoBlocker = 8;
 constexpr std::uint32_t kShort = 8;  // a list so short isn't narrowed for parts
 
 std::uint32_t facet_count(const Geometry& geometry) { return Blockers::facet_count(geometry); }
@@ -118,19 +119,20 @@ void LeanShaft::add_lines(const LatticeBox& a, const LatticeBox& b, std::uint32_
 
 std::uint64_t Sight::bytes(const Geometry& geometry, const Options& options) {
   if (options.flags == FlagMode::kOff) return 0;
-  const std::uint64_t facets = facet_count(geometry);
-  return 4 * std::uint64_t{kListWords} + (facets + 7) / 8 * 8 + (2 * facets + 7) / 8 * 8 + 32 * facets;
+  const std::uint32_t facets = facet_count(geometry);
+  return 4 * std::uint64_t{kListWords} + (std::uint64_t{facets} + 7) / 8 * 8 + (2 * std::uint64_t{facets} + 7) / 8 * 8 +
+         (sizeof(Cluster) * std::uint64_t{most_clusters(facets)} + 7) / 8 * 8;
 }
 
 Status Sight::take(Arena& arena, const Geometry& geometry, const Options& options) {
   geometry_ = &geometry;
   lists_ = false;
   if (options.flags == FlagMode::kOff) return {};
-  const std::size_t facets = facet_count(geometry);
+  const std::uint32_t facets = facet_count(geometry);
   const bool taken = arena.take("blockers left to parts", kListWords, left_) &&
                      arena.take("blockers of a row", kListWords, row_) &&
                      arena.take("kinds of blockers", facets, kinds_) &&
-                     arena.take("clusters of blockers", facets, clusters_) &&
+                     arena.take("clusters of blockers", most_clusters(facets), clusters_) &&
                      arena.take("blockers of a link", facets, pair_);
   return taken ? Status{} : arena.refused();
 }
@@ -142,14 +144,15 @@ void Sight::start(Intersector& intersector) {
   bool open = false;
   for (std::uint32_t f = 0; lists_ && f < facets_.size(); ++f) {
     const Facet& facet = facets_[f];
-    kinds_[f] = kind_of(*geometry_, facet);
     const bool blocks = intersector.blocks(f, LightSet::kAmbient), alone = longest_side(facet.box) > kLarge;
+    kinds_[f] = blocks ? kind_of(*geometry_, facet) : kNoBlocker;
     if (open && (!blocks || alone || f - clusters_[clusters_used_ - 1].first == kClusterFacets)) open = false;
     if (!blocks) continue;
-    if (!open) clusters_[clusters_used_++] = {{}, f, f};
+    const std::uint16_t here = static_cast<std::uint16_t>(f);
+    if (!open && clusters_used_ < clusters_.size()) clusters_[clusters_used_++] = {{}, here, here};
     open = !alone;
     Cluster& cluster = clusters_[clusters_used_ - 1];
-    cluster.end = f + 1;
+    cluster.end = static_cast<std::uint16_t>(f + 1);
     cluster.box.include(facet.box);
   }
 }
@@ -161,7 +164,7 @@ std::uint32_t Sight::collect(const LeanShaft& shaft, std::uint16_t* to) const {
     for (const Cluster& cluster : clusters_.first(clusters_used_)) {
       if (shaft.misses(cluster.box)) continue;
       for (std::uint32_t f = cluster.first; f < cluster.end; ++f) {
-        if (!shaft.misses(facets_[f].box)) to[count++] = static_cast<std::uint16_t>(f);
+        if (kinds_[f] != kNoBlocker && !shaft.misses(facets_[f].box)) to[count++] = static_cast<std::uint16_t>(f);
       }
     }
     return count;

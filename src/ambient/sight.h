@@ -6,7 +6,8 @@
 //     its list for its parts, as long as lists fit into kListWords. A block hands the lists on with the nodes that it
 //     leaves to its parts (ambient/link_walk.h). Whole meshes, and parts whose list didn't fit, start with all
 //     facets, in clusters: what follows each other in the tree of visibility/blockers.h, up to 6, but large ones alone,
-//     since a wall in it spoils the box of a cluster.
+//     since a wall in it spoils the box of a cluster. There are half as many clusters as facets at most, and the
+//     last takes what is left: lists are the same however facets are clustered.
 //   - between two nodes the list is narrowed by the hull of their boxes, seen along the three axes as in
 //     visibility/shaft.h, but in steps of 64 of the lattice, so that every product fits 32 bits. Boxes are rounded
 //     outwards: no blocker is missed. The hull of parts lies in that of the whole, so the list of a pair doesn't depend
@@ -14,7 +15,7 @@
 //     facet, and agrees.
 //   - a facet square to an axis that fills its box is hit if the segment meets its plane within the box: exact with
 //     products of two 32-bit numbers.
-// Exact: the answer for each segment. Bytes: 4 kListWords and 35 a facet (0 with flags off).
+// Exact: the answer for each segment. Bytes: 4 kListWords and 17 a facet (0 with flags off).
 #pragma once
 
 #include <cstdint>
@@ -89,8 +90,10 @@ class Sight {
   };
   struct Cluster {
     LatticeBox box;
-    std::uint32_t first = 0, end = 0;  // facets
+    std::uint16_t first = 0, end = 0;  // facets
   };
+  static_assert(sizeof(Cluster) == 28, "memory_plan.cpp");
+  static std::uint32_t most_clusters(std::uint32_t facets) { return facets / 2 + 1; }
   /// A node that was split for the node at work: list of row_.
   struct Part {
     std::uint32_t end;  // the node after its last
@@ -104,7 +107,8 @@ class Sight {
 
   const Geometry* geometry_ = nullptr;
   std::span<const Facet> facets_;
-  std::span<std::uint8_t> kinds_;         // by facet: 0 tilted; axis + 1; + 4 if its polygon fills its box
+  /// By facet: 0 tilted; axis + 1; + 4 if its polygon fills its box; 8: never blocks.
+  std::span<std::uint8_t> kinds_;
   std::span<Cluster> clusters_;
   std::uint32_t clusters_used_ = 0;
   std::span<std::uint16_t> left_, row_;

@@ -1,6 +1,7 @@
 // Rules 1 and 2: which rows and columns are left out (paper 3.2 rules 1, 2).
 //
-//     rule 1    largest channel of rho_i E0_i / pi above the display's MAX: row i is empty, the patch gets no ambient light
+//     rule 1    largest channel of rho_i E0_i / pi above the display's MAX: row i is empty, the patch gets no
+//               ambient light
 //     rule 2    largest channel of rho_j E0_j / pi below its MIN: column j is empty, the patch sends nothing, whatever
 //               light it gets
 //     rule 2+   ours: rule 2; then columns whose *total* luminance came out at MIN or more are put back, the rows are

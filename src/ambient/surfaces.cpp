@@ -66,6 +66,11 @@ SampleSet cached_set(const Options& options) {
   return options.segments_first <= 1 ? SampleSet::kCentre : SampleSet::kGauss;
 }
 
+/// ambient/sight.h has no use for boxes of meshes.
+std::size_t mesh_boxes(const Scene& scene, const Options& options) {
+  return options.flags == FlagMode::kOff || options.rules.blocks ? 0 : scene.meshes.size();
+}
+
 bool take_all(Arena& arena, const Scene& scene, const Options& options, std::uint32_t shapes, SurfacesKeep keep,
               Surfaces& s) {
   const std::size_t blocks = block_count(scene, options.rules), meshes = scene.meshes.size();
@@ -76,7 +81,7 @@ bool take_all(Arena& arena, const Scene& scene, const Options& options, std::uin
       arena.take("mesh order", meshes, s.mesh_at) && arena.take("mesh positions", meshes + 1, s.mesh_begin) &&
       arena.take("planar meshes", meshes, s.planar) && arena.take("patch positions", n, s.patch_at) &&
       arena.take("blocks", blocks, s.blocks) && arena.take("patch areas", n, s.root_area) &&
-      arena.take("mesh boxes", options.flags == FlagMode::kOff ? 0 : meshes, s.mesh_box);
+      arena.take("mesh boxes", mesh_boxes(scene, options), s.mesh_box);
   if (!taken || keep == SurfacesKeep::kNothing) {
     return taken && arena.take("found nodes", scene.patch_count > 0 ? kFoundNodes : 0, s.found_nodes);
   }
@@ -297,7 +302,7 @@ std::uint64_t surfaces_bytes(const Scene& scene, const Options& options, Surface
   const std::uint64_t points = sample_points(cached_set(options), false).size();
   const std::uint64_t always = block(4 * meshes) + block(4 * (meshes + 1)) + block(meshes) + block(4 * n) +
                                sizeof(Block) * blocks + 8 * n +
-                               (options.flags == FlagMode::kOff ? 0 : sizeof(LatticeBox) * meshes);
+                               sizeof(LatticeBox) * mesh_boxes(scene, options);
   if (keep == SurfacesKeep::kNothing) return always + (n > 0 ? sizeof(FoundNode) * kFoundNodes : 0);
   return always + block(4 * n) + sizeof(PatchShape) * (count_shapes(scene) + blocks) + sizeof(Patch) * blocks +
          block(sizeof(LatticePoint) * n * points);

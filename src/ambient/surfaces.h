@@ -7,12 +7,12 @@
 // With rule 3 or blocks a mesh that can be taken as a whole is a tree (ambient/block_tree.h), and positions number its
 // *nodes*: a block comes before what is in it, a mesh's patches stand in the order of its tree. A block is looked at
 // as one large patch: it has a centre, a normal, an area, a shape and samples. Without blocks a node is a patch.
-// Bytes: 16 + 12 P a node (P samples, 1 or 4) + 96 a shape + 9 a mesh (33 with flags) + 136 a block, which has a
-// shape of its own.
+// Bytes: 16 + 12 P a node (P samples, 1 or 4) + 96 a shape + 9 a mesh (33 with flags and without `blocks`) + 128 a
+// block, which has a shape of its own.
 //
 // With little memory the *geometry* of nodes (patch, shape, samples) isn't kept: it is found again, to the same bits,
 // when it is asked for, and the last kFoundNodes that were stay at hand. A reference to a node's geometry is then good
-// until so many others have been looked at. Bytes: 12 a node + 40 a block + 9 or 33 a mesh + 3,712.
+// until so many others have been looked at. Bytes: 12 a node + 32 a block + 9 or 33 a mesh + 3,712.
 #pragma once
 
 #include <cstdint>
@@ -63,7 +63,7 @@ struct Surfaces {
   std::span<FoundNode> found_nodes;      // none: shapes, block_patches and kept_samples hold all geometry
   SampleSet cached_set = SampleSet::kGauss;  // kCentre for one segment a pair
   std::uint32_t cached_points = 4;       // 1 or 4
-  std::span<LatticeBox> mesh_box;        // of mesh_at[k]: around its samples; none with flags off
+  std::span<LatticeBox> mesh_box;        // of mesh_at[k]: around its samples; none with flags off, or `blocks`
   std::span<double> root_area;           // sqrt R of the area that isn't hidden; 0: takes no part
   std::uint32_t gathered = 0;            // of mesh_at: how many are there
   double flat = 0;                       // heights below it are rounding, scene units

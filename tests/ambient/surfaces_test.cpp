@@ -63,11 +63,13 @@ TEST(Surfaces, WhatIsFoundAgainIsWhatIsKept) {
       for (std::uint32_t node = 0; node < both.kept.size(); ++node) both.expect_same(node);
       std::mt19937 random(5);
       for (int k = 0; k < 2000; ++k) both.expect_same(static_cast<std::uint32_t>(random() % both.kept.size()));
+      EXPECT_EQ(both.kept.mesh_box.size(), blocks ? 0 : both.kept.mesh_at.size());
+      ASSERT_EQ(both.kept.mesh_box.size(), both.found.mesh_box.size());
       for (std::size_t m = 0; m < both.kept.mesh_at.size(); ++m) {
         EXPECT_EQ(both.kept.mesh_at[m], both.found.mesh_at[m]);
         EXPECT_EQ(both.kept.planar[m], both.found.planar[m]);
-        EXPECT_EQ(std::memcmp(&both.kept.mesh_box[m], &both.found.mesh_box[m], sizeof(LatticeBox)), 0);
       }
+      EXPECT_EQ(std::memcmp(both.kept.mesh_box.data(), both.found.mesh_box.data(), both.kept.mesh_box.size_bytes()), 0);
     }
   }
 }
