@@ -154,7 +154,7 @@ Received Sources::receive_sun(std::uint32_t l, const Receiver& receiver, const S
 
 FaceLook Sources::look(std::uint32_t l, const SubPatchView& view, const ReceiverGroup& group) {
   const Source& source = sources_[l];
-  aimed_ = kNone;  // a new wide aim
+  aimed_ = kNone;  // another wide aim follows
   const FaceLight faces(*scene_, *geometry_, *intersector_, aims_, emitters_, tiers_);
   return faces.look(view, group, link(l, *view.receiver), source.first_emitter, source.emitter_count, source.ends,
                     source.whole);

@@ -62,8 +62,9 @@ bool fill_box(std::span<const Triangle> triangles, const LatticeBox& box) {
       corners[k] |= std::uint32_t{1} << ((low_u ? 0 : 1) + (low_v ? 0 : 2));
     }
   }
-  const std::uint32_t missing = (~corners[0] | ~corners[1]) & 15;
-  return std::popcount(corners[0]) == 3 && std::popcount(corners[1]) == 3 && (missing == 6 || missing == 9);
+  // Two opposite corners are left out, and neither triangle leaves out both.
+  const std::uint32_t first = ~corners[0] & 15, second = ~corners[1] & 15, both = first | second;
+  return (both == 6 || both == 9) && first != both && second != both;
 }
 
 std::uint32_t Blockers::facet_count(const Geometry& geometry) {
