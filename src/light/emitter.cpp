@@ -131,8 +131,8 @@ void find_own_height(const Geometry& geometry, std::span<const LatticePoint> end
   emitter.own_triangle = triangle;
 }
 
-/// Any point of the face may be an end: see FaceLight. Each is rounded and moved in front of the face on its own, so the
-/// box grows by that but where it is flat.
+/// Any point of the face may be an end: see FaceLight. Each is rounded and moved in front of the face on its own, so
+/// the box grows by that but where it is flat.
 void include_corners(const Scene& scene, const Geometry& geometry, const Piece& piece, Emitter& emitter) {
   LatticeBox& whole = emitter.whole;
   whole = emitter.box;

@@ -32,10 +32,11 @@ double kernel(const Vec3& from, const Vec3& normal, const Vec3& to, const Vec3& 
   return above * -dot(emitter_normal, way) / (squared * squared);
 }
 
-Reach reach_of(const SubPatchView& view, const Emitter& emitter) {
+FaceReach reach_of(const SubPatchView& view, const Emitter& emitter) {
   const double squared = length_squared(emitter.centre - view.centre);
   const double near = emitter.radius + kNearRadii * view.radius, very_near = emitter.radius + view.radius;
-  return squared < very_near * very_near ? Reach::kVeryNear : squared < near * near ? Reach::kNear : Reach::kFar;
+  if (squared < very_near * very_near) return FaceReach::kVeryNear;
+  return squared < near * near ? FaceReach::kNear : FaceReach::kFar;
 }
 
 }  // namespace
@@ -267,7 +268,7 @@ void FaceLight::look_at(const SubPatchView& view, const ReceiverGroup& group, co
   }
 }
 
-FaceLook FaceLight::factors(const SubPatchView& view, const ReceiverGroup& group, Reach reach, std::uint32_t first,
+FaceLook FaceLight::factors(const SubPatchView& view, const ReceiverGroup& group, FaceReach reach, std::uint32_t first,
                             std::uint32_t count) const {
   FaceLook look;
   for (std::uint32_t e = first; e < first + count; ++e) {
@@ -290,7 +291,7 @@ FaceLook FaceLight::look(const SubPatchView& view, const ReceiverGroup& group, c
     Face face{&emitters_->faces[e], count};
     face.tier = tier_of(view, face);
     if (face.tier == Tier::kNothing) continue;
-    const Reach reach = reach_of(view, *face.emitter);
+    const FaceReach reach = reach_of(view, *face.emitter);
     if (reach > look.reach) look.reach = reach;
     find_factors(view, group, face);
     if (!aimed) {

@@ -33,14 +33,14 @@ struct SubPatchView {
 
 /// How fast a face's light varies over a sub-patch, by their distance: the mean is found by the four Gauss points, by
 /// nine, or by the 16 samples of the grid, since no rule of few points will do.
-enum class Reach : std::uint8_t { kFar, kNear, kVeryNear };
+enum class FaceReach : std::uint8_t { kFar, kNear, kVeryNear };
 
 /// One light from the samples of a group; k as there.
 struct FaceLook {
   double factor[kMostInGroup] = {};   // form factor to all faces, nothing in the way
   double tested[kMostInGroup] = {};   // the part of it in faces of which some end is above the horizon
   double arrives[kMostInGroup] = {};  // the part of `tested` that is visible
-  Reach reach = Reach::kFar;          // of the nearest face
+  FaceReach reach = FaceReach::kFar;          // of the nearest face
   bool clear = false;                 // nothing is in the way, as an aim showed
   bool split = false;                 // a face was so near that segments went to the leaves of its quadtree
 
@@ -64,7 +64,7 @@ class FaceLight {
   FaceLook look(const SubPatchView& view, const ReceiverGroup& group, const Link& link, std::uint32_t first,
                 std::uint32_t count, const LatticeBox& ends, const LatticeBox& whole) const;
   /// Only `factor`, and of the faces within this reach; no segments.
-  FaceLook factors(const SubPatchView& view, const ReceiverGroup& group, Reach reach, std::uint32_t first,
+  FaceLook factors(const SubPatchView& view, const ReceiverGroup& group, FaceReach reach, std::uint32_t first,
                    std::uint32_t count) const;
 
  private:

@@ -160,7 +160,7 @@ FaceLook Sources::look(std::uint32_t l, const SubPatchView& view, const Receiver
                     source.whole);
 }
 
-FaceLook Sources::factors(std::uint32_t l, const SubPatchView& view, const ReceiverGroup& group, Reach reach) {
+FaceLook Sources::factors(std::uint32_t l, const SubPatchView& view, const ReceiverGroup& group, FaceReach reach) {
   const FaceLight faces(*scene_, *geometry_, *intersector_, aims_, emitters_, tiers_);
   return faces.factors(view, group, reach, sources_[l].first_emitter, sources_[l].emitter_count);
 }

@@ -44,7 +44,7 @@ class Sources {
   /// Of an area or polyhedral light.
   FaceLook look(std::uint32_t l, const SubPatchView& view, const ReceiverGroup& group);
   /// The same without segments: `factor` only, of the faces within this reach.
-  FaceLook factors(std::uint32_t l, const SubPatchView& view, const ReceiverGroup& group, Reach reach);
+  FaceLook factors(std::uint32_t l, const SubPatchView& view, const ReceiverGroup& group, FaceReach reach);
   /// What sample k of the group gets, given look().
   Received received(std::uint32_t l, const ReceiverGroup& group, const FaceLook& look, std::uint32_t k) const;
 

@@ -181,7 +181,7 @@ void SubPatch::add_faces(std::uint32_t l) {
   }
   const bool unseen = !(mean.lux > 0);  // though a part of the sub-patch may be in front
   const double visible = unseen ? 0 : arrives / mean.lux;
-  if (look.reach != Reach::kFar) mean = near_mean(l);
+  if (look.reach != FaceReach::kFar) mean = near_mean(l);
   if (!(mean.lux > 0)) return;
   mean.visible = visible;
   if (unseen || disagree(received, kGaussSamples, false)) {
@@ -207,7 +207,7 @@ double SubPatch::centre_sees(std::uint32_t l) {
 /// Nothing in the way; each face by the rule that suits its reach.
 Received SubPatch::near_mean(std::uint32_t l) const {
   Received mean;
-  const auto add = [&](const ReceiverGroup& group, Reach reach, auto weight_of) {
+  const auto add = [&](const ReceiverGroup& group, FaceReach reach, auto weight_of) {
     const FaceLook look = sources_.factors(l, view_, group, reach);
     for (std::uint32_t k = 0; k < group.count; ++k) {
       const Received received = sources_.received(l, group, look, k);
@@ -219,11 +219,11 @@ Received SubPatch::near_mean(std::uint32_t l) const {
   for (std::uint32_t k = 0; k < kGaussSamples; ++k) gauss += grid_.weight_at(grid_.gauss(k));
   for (std::uint32_t k = 0; k < grid_.fine_count(); ++k) fine += fine_weight(k);
   for (std::uint32_t k = 0; k < kGridSamples; ++k) grid += grid_.weight(k);
-  add(gauss_, Reach::kFar, [&](std::uint32_t k) { return grid_.weight_at(grid_.gauss(k)) / gauss; });
-  add(fine_group(grid_), Reach::kNear, [&](std::uint32_t k) { return fine_weight(k) / fine; });
+  add(gauss_, FaceReach::kFar, [&](std::uint32_t k) { return grid_.weight_at(grid_.gauss(k)) / gauss; });
+  add(fine_group(grid_), FaceReach::kNear, [&](std::uint32_t k) { return fine_weight(k) / fine; });
   for (std::uint32_t half = 0; half < 2; ++half) {
     const ReceiverGroup group = grid_half(grid_, half);
-    add(group, Reach::kVeryNear, [&](std::uint32_t k) { return grid_.weight(group.grid_index[k]) / grid; });
+    add(group, FaceReach::kVeryNear, [&](std::uint32_t k) { return grid_.weight(group.grid_index[k]) / grid; });
   }
   return mean;
 }

@@ -14,13 +14,13 @@ struct Hashes {
 };
 
 inline constexpr Hashes kHashes[] = {
-    {"box", 0xf2658acd70bc3e68, 0x07d7a1d6c43784f1},
+    {"box", 0xf05f133455233400, 0xa9a5b49974afe280},
     {"sun", 0x9e54c6cd4147ac22, 0x6973181985d668a5},
-    {"shapes", 0x469cceb63c854071, 0x91e43f4aec05d876},
-    {"rules", 0x5c4dbdebdc599f33, 0x802a2d6b7938aed8},
-    {"rule2+", 0xf1df80867dbf1291, 0x0c328bdef64ee4c7},
-    {"blocks", 0xeacf022d2e91f573, 0x052d57c02559a326},
-    {"day", 0xfa9d1499cc61f7c9, 0x9891e8be803d8f63},
+    {"shapes", 0xe172d80437caa710, 0xdc78574ecb08cedd},
+    {"rules", 0x93531a6d034cebd3, 0x250d75e13c00b291},
+    {"rule2+", 0x72b8f90567c946d6, 0xdce93435537fe323},
+    {"blocks", 0xc1ed55ed74e9dd36, 0x937ba125e9fcc7a4},
+    {"day", 0x5400ccb94ce11f23, 0x4b9d56911116618e},
 };
 
 }  // namespace machines

@@ -96,12 +96,13 @@ Outcome run(const Machine& machine, const Case& c, std::span<unsigned char> memo
   Status status = load(c.scene, text, compiled_in(), options, memory.data(), memory.size(), model);
   if (status.done()) outcome.smallest = smallest_memory(*model);
   if (status.done()) status = solve(*model, {});
+  // Before the picture, which takes the memory of the patches where it is short.
+  if (status.done()) outcome.maps = hash_of_maps(*model);
   if (status.done()) status = draw(*model, {}, {take_line, &drawing});
   if (!status.done()) {
     Log(machine) << "case " << c.name << ": " << status.file << ":" << status.line << ": " << status.message;
     return outcome;
   }
-  outcome.maps = hash_of_maps(*model);
   outcome.picture = drawing.hash.value();
   outcome.peak = statistics(*model).memory_peak;
   outcome.recomputed = statistics(*model).rows_recomputed;
