@@ -40,7 +40,7 @@ struct FaceLook {
   double factor[kMostInGroup] = {};   // form factor to all faces, nothing in the way
   double tested[kMostInGroup] = {};   // the part of it in faces of which some end is above the horizon
   double arrives[kMostInGroup] = {};  // the part of `tested` that is visible
-  FaceReach reach = FaceReach::kFar;          // of the nearest face
+  FaceReach reach = FaceReach::kFar;  // of the nearest face
   bool clear = false;                 // nothing is in the way, as an aim showed
   bool split = false;                 // a face was so near that segments went to the leaves of its quadtree
 
