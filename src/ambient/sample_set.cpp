@@ -2,24 +2,20 @@
 
 #include <array>
 
+#include "base/quadrature.h"
+
 namespace shodo {
 
 namespace {
 
 constexpr double kThird = 1.0 / 3;
-constexpr double kGauss = 0.57735026918962576;   // 1 / sqrt 3
-constexpr double kInner = 0.14088324360345806;   // (1 - 1 / sqrt 3) / 3: makes 4 equal weights exact to degree 2
-constexpr double kRadonNear = 0.10128650732345634;  // (6 - sqrt 15) / 21
-constexpr double kRadonFar = 0.47014206410511509;   // (6 + sqrt 15) / 21
-constexpr double kRadonNearWeight = 0.12593918054482715;  // (155 - sqrt 15) / 1200
-constexpr double kRadonFarWeight = 0.13239415278850618;   // (155 + sqrt 15) / 1200
 
 constexpr std::array<SamplePoint, 1> kCentre{{{0, 0, 1}}};
 
-constexpr std::array<SamplePoint, 4> kQuad4{{{-kGauss, -kGauss, 0.25},
-                                             {kGauss, -kGauss, 0.25},
-                                             {-kGauss, kGauss, 0.25},
-                                             {kGauss, kGauss, 0.25}}};
+constexpr std::array<SamplePoint, 4> kQuad4{{{-kGaussTwo, -kGaussTwo, 0.25},
+                                             {kGaussTwo, -kGaussTwo, 0.25},
+                                             {-kGaussTwo, kGaussTwo, 0.25},
+                                             {kGaussTwo, kGaussTwo, 0.25}}};
 
 constexpr std::array<SamplePoint, 4> kHalves{
     {{-0.5, -0.5, 0.25}, {0.5, -0.5, 0.25}, {-0.5, 0.5, 0.25}, {0.5, 0.5, 0.25}}};

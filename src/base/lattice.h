@@ -35,6 +35,9 @@ constexpr LatticeVector cross(const LatticeVector& a, const LatticeVector& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// A product of two differences of lattice points: one instruction on a machine of 32 bits.
+constexpr std::int64_t product(std::int32_t a, std::int32_t b) { return std::int64_t{a} * b; }
+
 struct Lattice {
   double steps_per_unit = 1;  // a power of two
 

@@ -1,6 +1,7 @@
 #include "light/face_light.h"
 
 #include "light/polygon_factor.h"
+#include "light/quad_cell.h"
 
 namespace shodo {
 
@@ -129,33 +130,24 @@ class FaceLight::Leaves {
   }
   PieceGrid::Parameter centre() const { return centre_; }
   /// Share of the face's area.
-  double weight() const { return grid_->weight_at(centre_) * size() * size(); }
+  double weight() const { return grid_->weight_at(centre_) * cell_.size() * cell_.size(); }
   /// False after the last.
   bool next() {
-    while (depth_ > 0 && (x_ & y_ & 1) == 1) {
-      x_ /= 2;
-      y_ /= 2;
-      --depth_;
-    }
-    if (depth_ == 0) return false;
-    if ((x_ & 1) == 1) ++y_;
-    x_ ^= 1;
+    if (!cell_.advance()) return false;
     descend();
     return true;
   }
 
  private:
-  double size() const { return 1 / static_cast<double>(std::uint32_t{1} << depth_); }
   void descend() {
     for (;;) {
-      centre_ = {size() * (x_ + 0.5), size() * (y_ + 0.5)};
-      const double radius = radius_ * size();
+      const double size = cell_.size();
+      centre_ = {size * (cell_.x + 0.5), size * (cell_.y + 0.5)};
+      const double radius = radius_ * size;
       const double squared = length_squared(piece_->point(centre_.s, centre_.t) - view_->centre);
       const bool small = radius * radius <= kLeafAngle * kLeafAngle * squared || radius < kLeafOfRadius * view_->radius;
-      if (small || depth_ == kDeepestLeaf) return;
-      x_ *= 2;
-      y_ *= 2;
-      ++depth_;
+      if (small || cell_.depth == kDeepestLeaf) return;
+      cell_.descend();
     }
   }
 
@@ -163,7 +155,7 @@ class FaceLight::Leaves {
   const PieceGrid* grid_;
   const SubPatchView* view_;
   double radius_;
-  std::uint32_t x_ = 0, y_ = 0, depth_ = 0;
+  QuadCell cell_;
   PieceGrid::Parameter centre_{0.5, 0.5};
 };
 

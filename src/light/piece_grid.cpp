@@ -1,5 +1,7 @@
 #include "light/piece_grid.h"
 
+#include "base/quadrature.h"
+
 namespace shodo {
 
 namespace {
@@ -7,12 +9,6 @@ namespace {
 /// Slopes of the Jacobian below this share of it are rounding: a parallelogram's samples have weight 1 exactly.
 constexpr double kConstant = 0x1p-30;
 constexpr double kGaussLow = 0.21132486540518713;  // (1 - 1 / sqrt 3) / 2
-constexpr double kRadonCentre = 0.225;
-constexpr double kRadonNear = 0.10128650732345634;        // (6 - sqrt 15) / 21
-constexpr double kRadonFar = 0.47014206410511509;         // (6 + sqrt 15) / 21
-constexpr double kRadonNearWeight = 0.12593918054482715;  // (155 - sqrt 15) / 1200
-constexpr double kRadonFarWeight = 0.13239415278850618;   // (155 + sqrt 15) / 1200
-constexpr double kInner = 0.14088324360345806;     // (1 - 1 / sqrt 3) / 3: three such points and the centroid
 
 bool constant(double a, double b) {
   const double difference = a < b ? b - a : a - b;
@@ -76,7 +72,7 @@ PieceGrid::Parameter PieceGrid::gauss(std::uint32_t k) const {
 
 PieceGrid::Weighted PieceGrid::fine(std::uint32_t k) const {
   if (piece_->corners == 3) {
-    if (k == 0) return {{1.0 / 3, 1.0 / 3}, kRadonCentre};
+    if (k == 0) return {{1.0 / 3, 1.0 / 3}, kRadonCentreWeight};
     const double t = k < 4 ? kRadonNear : kRadonFar;
     const std::uint32_t tip = (k - 1) % 3;
     return {kept_in({tip == 1 ? 1 - 2 * t : t, tip == 2 ? 1 - 2 * t : t}), k < 4 ? kRadonNearWeight : kRadonFarWeight};

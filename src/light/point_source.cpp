@@ -1,6 +1,7 @@
 #include "light/point_source.h"
 
 #include "light/distribution.h"
+#include "light/quad_cell.h"
 
 namespace shodo {
 
@@ -29,36 +30,14 @@ double half_solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   return arctangent2(dot(a, cross(b, c)), product);
 }
 
-/// Cell (x, y) of 2^depth by 2^depth; a triangle is a quadrilateral two corners of which are one.
-struct Cell {
-  std::uint32_t x = 0, y = 0, depth = 0;
-
-  /// Corners seen from `eye`.
-  void corners(const Piece& whole, const Vec3& eye, Vec3* corner) const {
-    const double size = 1.0 / static_cast<double>(std::uint32_t{1} << depth);
-    for (std::uint32_t k = 0; k < 4; ++k) {
-      const double s = size * (x + (k == 1 || k == 2 ? 1 : 0)), t = size * (y + (k >= 2 ? 1 : 0));
-      corner[k] = whole.point(s, t) - eye;
-    }
+/// The cell's corners seen from `eye`; a triangle is a quadrilateral two corners of which are one.
+void corners_of(const QuadCell& cell, const Piece& whole, const Vec3& eye, Vec3* corner) {
+  const double size = cell.size();
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    const double s = size * (cell.x + (k == 1 || k == 2 ? 1 : 0)), t = size * (cell.y + (k >= 2 ? 1 : 0));
+    corner[k] = whole.point(s, t) - eye;
   }
-  void descend() {
-    x *= 2;
-    y *= 2;
-    ++depth;
-  }
-  /// To the next leaf in Z order; false after the last.
-  bool advance() {
-    while (depth > 0 && (x & y & 1) == 1) {
-      x /= 2;
-      y /= 2;
-      --depth;
-    }
-    if (depth == 0) return false;
-    if ((x & 1) == 1) ++y;
-    x ^= 1;
-    return true;
-  }
-};
+}
 
 }  // namespace
 
@@ -88,11 +67,11 @@ double near_point_mean(const Scene& scene, const Light& light, const Piece& piec
   const double limit = kCellAngle * kCellAngle / (1 + exponent_of(light));
   const double step_squared = step * step;
   double flux = 0;  // cd sr
-  Cell cell;
+  QuadCell cell;
   do {
     Vec3 corner[4], centre;
     for (;;) {
-      cell.corners(whole, light.position, corner);
+      corners_of(cell, whole, light.position, corner);
       centre = 0.25 * ((corner[0] + corner[1]) + (corner[2] + corner[3]));
       if (cell.depth == kDepth || size_squared(corner) <= limit * length_squared(centre)) break;
       cell.descend();

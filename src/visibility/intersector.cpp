@@ -19,9 +19,6 @@ LatticePoint operator+(const LatticePoint& p, const LatticeVector& direction) {
           static_cast<std::int32_t>(p.z + direction.z)};
 }
 
-/// A product of two differences of lattice points: one instruction on a machine of 32 bits.
-std::int64_t product(std::int32_t a, std::int32_t b) { return std::int64_t{a} * b; }
-
 /// Whether the line from p along d passes the box of a facet square to an axis, given that p and p + d are on opposite
 /// sides of it; exact, products within 2^42. Where it does not, neither triangle blocks; where it does and they fill
 /// the box, one of them does: 6 small products instead of 36 large ones.

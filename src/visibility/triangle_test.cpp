@@ -9,9 +9,6 @@ namespace shodo {
 
 namespace {
 
-/// A product of two differences of lattice points: one instruction on a machine of 32 bits.
-std::int64_t product(std::int32_t a, std::int32_t b) { return std::int64_t{a} * b; }
-
 /// m . (q - p), without making 64 bits of the difference before they are needed.
 std::int64_t along(const LatticeVector& m, const LatticePoint& q, const LatticePoint& p) {
   return m.x * (q.x - p.x) + m.y * (q.y - p.y) + m.z * (q.z - p.z);
