@@ -1,5 +1,5 @@
 # shodo: `make` builds build/shodo. Other targets: rooms, report, test, check-same-bytes, machines, workstation,
-# scaling, memory-cost, check-budgets, install, install-needs, clean.
+# fuzz, soak, scaling, memory-cost, check-budgets, install, install-needs, clean.
 #
 # Settings, on the command line of make:
 #   CXX=clang++ OPT=-O0   another compiler or optimisation; what was built with other flags is built again
@@ -89,6 +89,16 @@ test: $(BUILD)/shodo $(BUILD)/tests
 check-same-bytes:
 	@sh tests/same_bytes
 
+# Three fuzzers under sanitizers; FUZZ_SECONDS of each. Part of `make test` with a minute.
+FUZZ_SECONDS = 60
+fuzz:
+	@sh tests/fuzz/run $(FUZZ_SECONDS)
+
+# An hour of fuzzing, then 10^8 pairs of segment and triangle against the 128-bit twin and 10^7 segments at seams.
+soak: $(BUILD)/tests
+	@sh tests/fuzz/run 1800
+	SHODO_SOAK=50 $(BUILD)/tests --gtest_filter='TriangleTest.*:Leaks.*'
+
 # The program, the library with its headers, what pkg-config and man read (doc/library.md).
 VERSION = $(shell sed -n 's/.*kVersion = "shodo \(.*\)".*/\1/p' src/cli/arguments.h)
 INSTALLED = $(DESTDIR)$(PREFIX)
@@ -130,7 +140,7 @@ clean:
 
 FORCE:
 .PHONY: all rooms report test check-same-bytes machines workstation scaling memory-cost check-budgets install \
-  install-needs clean FORCE
+  fuzz soak install-needs clean FORCE
 .SECONDARY:
 
 -include $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(TEST_OBJECTS:.o=.d)
