@@ -96,7 +96,7 @@ CaseResult light_on_sample() {
       found.worst(most);
       found.demand(flux <= 400 * M_PI * 1.01, say("no more flux than the light has at %g", height));
       // In the floor's plane it sends the floor nothing at all.
-      if (height > 0) found.demand(run.model().statistics.lights_clamped > 0, say("clamped and reported at %g", height));
+      if (height > 1e-12) found.demand(run.model().statistics.lights_clamped > 0, say("clamped and reported at %g", height));
     }
   }
   return found.result("lux at most with a light of 100 cd on a sample or a hair above; finite, clamped, counted");

@@ -48,7 +48,7 @@ CaseResult bad_numbers() {
   // -0, denormals, and 400 digits that make an ordinary number are numbers.
   for (const std::string& good : {std::string("-0"), std::string("1e-320"), std::string("5e-324"), std::string("1e-999"),
                                  "0." + digits, digits + "e-400"}) {
-    const Run run("shodo 1\nmaterial white diffuse 0.5\nobject o\nquad white 0 0 " + good + "  1 0 0  1 1 0  0 1 0\n"
+    const Run run("shodo 1\nmaterial white diffuse 0.5\nobject o\nquad white 0 0 " + good + "  1 0 0  1 1 0  0 1 0 patches 1 1\n"
                   "light l point at 0.5 0.5 1 intensity 100\n");
     found.demand(run.done() && run.sound() && run.patches() == 1, good.substr(0, 20) + " taken");
   }
