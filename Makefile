@@ -20,7 +20,8 @@ TEST_FLAGS = $(COMMON_FLAGS) -I. -Itests
 
 LIBRARY_SOURCES = $(filter-out src/cli/%,$(wildcard src/*.cpp src/*/*.cpp))
 PROGRAM_SOURCES = $(wildcard src/cli/*.cpp)
-TEST_SOURCES = $(wildcard tests/*/*_test.cpp tests/support/*.cpp)
+TEST_SOURCES = $(wildcard tests/*/*_test.cpp tests/support/*.cpp tests/hard/*_cases.cpp) \
+  $(addprefix tests/hard/,run.cpp scene_text.cpp variants.cpp)
 objects = $(patsubst %.cpp,$(BUILD)/objects/%.o,$(1))
 LIBRARY_OBJECTS = $(call objects,$(LIBRARY_SOURCES))
 PROGRAM_OBJECTS = $(call objects,$(PROGRAM_SOURCES))

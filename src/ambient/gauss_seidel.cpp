@@ -181,7 +181,8 @@ SweepResult sweep_once(Run& run) {
   return grey ? sweep<false, 1>(run) : sweep<false, 3>(run);
 }
 
-/// rho_i R_i (E0_i + a_i) of every patch, with the correction of its group added to a_i first. Light is never negative.
+/// rho_i R_i (E0_i + a_i) of every patch, with the correction of its group added to a_i first. Light is never negative;
+/// and a patch that no light has reached is lent none, so that a mesh of which a part is closed in stays dark there.
 void correct_and_send(Run& run, std::uint32_t c) {
   const Surfaces& surfaces = run.matrix.surfaces;
   const Sparsity& sparsity = run.matrix.sparsity;
@@ -192,7 +193,7 @@ void correct_and_send(Run& run, std::uint32_t c) {
     at.go_to(i);
     const std::size_t patch = std::size_t{surfaces.patch_at[i]} * channels + c;
     double& ambient = run.solver.ambient_lx[patch];
-    if (sparsity.receives(i)) ambient += run.solver.group_delta[run.matrix.coarse.group_of_mesh(at.place())];
+    if (sparsity.receives(i) && ambient > 0) ambient += run.solver.group_delta[run.matrix.coarse.group_of_mesh(at.place())];
     if (ambient < 0) ambient = 0;
     const double total = run.direct.patch_lx[patch] + ambient;
     run.solver.sent[std::size_t{i} * channels + c] =

@@ -84,9 +84,6 @@ std::int32_t height_in_front(std::int32_t height, std::int32_t extent) {
                                                                   (4 * static_cast<std::uint32_t>(extent)));
 }
 
-/// Samples are moved in front of their surface by less than that.
-constexpr std::int32_t kMoved = 16;
-
 std::int32_t component(const LatticePoint& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
 /// Bit k: all cached samples of the mesh have the same coordinate along axis k.
@@ -192,8 +189,8 @@ LatticeBox Places::box(const Surfaces& s, std::uint32_t node, std::uint32_t plac
   const LatticePoint& sample = s.samples(node)[0];
   for (int k = 0; k < 3; ++k) {
     const bool flat = (mesh.flat >> k & 1) != 0;
-    box.low[k] = flat ? component(sample, k) : at.centre[k] - half[k] - kMoved;
-    box.high[k] = flat ? component(sample, k) : at.centre[k] + half[k] + kMoved;
+    box.low[k] = flat ? component(sample, k) : at.centre[k] - half[k] - kMostMoved;
+    box.high[k] = flat ? component(sample, k) : at.centre[k] + half[k] + kMostMoved;
   }
   return box;
 }

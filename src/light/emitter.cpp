@@ -10,8 +10,8 @@ namespace {
 /// A light this many times as long as wide has two rows of ends; one row from the second on.
 constexpr double kLong = 3;
 constexpr double kVeryLong = 8;
-/// Lattice steps: ends stand less than 11 off their points (see visibility/samples.cpp), and so do the corners' own.
-constexpr std::int32_t kEndRounding = 22;
+/// Lattice steps, so many at both: ends stand less than that off their points, and so do the corners' own.
+constexpr std::int32_t kEndRounding = 2 * kMostMoved;
 
 Emitter emitter_of(const Piece& piece, std::uint32_t light) {
   Emitter emitter;

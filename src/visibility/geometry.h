@@ -37,8 +37,12 @@ struct DrawnTriangle {
 /// A polygon of the file (a cell of a mesh or an area light) and its triangles, contiguous in Geometry::triangles.
 struct PolygonTriangles {
   std::uint32_t first = 0;
-  std::uint32_t count = 0;
+  std::uint32_t count : 27 = 0;
+  std::uint32_t raise : 5 = 0;  // steps along its normal by which samples stand higher: another polygon touches it
 };
+
+/// Samples, moved in front of their surface, stand less than so many steps off their points, in each coordinate.
+inline constexpr std::int32_t kMostMoved = 24;
 
 struct Geometry {
   Lattice lattice;

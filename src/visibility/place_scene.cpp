@@ -5,12 +5,15 @@
 // in a spare block. If the light takes that, drawn triangles are found once more before the picture.
 #include "visibility/drawn.h"
 #include "visibility/geometry.h"
+#include "visibility/mending.h"
 #include "visibility/placement.h"
 #include "visibility/ring.h"
 
 namespace shodo {
 
 namespace {
+
+constexpr std::uint32_t kMostTriangles = (1u << 27) - 1;  // of a polygon
 
 /// Where triangles go; with empty spans they are counted only.
 struct Output {
@@ -72,7 +75,9 @@ void cut_polygons(const Scene& scene, const Placement& placement, Output& output
     }
     cut_drawn(scene, placement, p, polygon, {take_drawn, &output});
     if (geometry == nullptr) continue;
-    const PolygonTriangles range{before, output.triangle_count - before};
+    PolygonTriangles range;
+    range.first = before;
+    range.count = (output.triangle_count - before) & kMostTriangles;
     if (is_light) {
       geometry->light_triangles[polygon.light] = range;
     } else {
@@ -118,12 +123,14 @@ Status place_scene(const Scene& scene, Arena& arena, Geometry& geometry) {
   placement.lattice = geometry.lattice;
   arena.start_stage();
   const std::size_t before = arena.in_use();
-  if (!place(scene, arena, placement)) return arena.refused();
+  PolygonTree tree;
+  if (!place(scene, arena, placement, tree)) return arena.refused();
   geometry.placing_bytes = arena.stage_peak() - before;
   Output output;
   output.triangles = geometry.triangles;
   output.drawn = geometry.drawn;
   cut_polygons(scene, placement, output, &geometry);
+  find_raises(scene, placement, tree, geometry);
   geometry.inserted = placement.inserted;
   geometry.moved = placement.moved;
   if (!place_point_lights(scene, arena, geometry)) return arena.refused();
