@@ -10,6 +10,7 @@
 #include "base/arena.h"
 #include "light/direct.h"
 #include "map/illuminance_map.h"
+#include "map/plane_maps.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
 #include "shodo/shodo.h"
@@ -31,6 +32,7 @@ struct Model {
   DirectLight direct;
   AmbientLight ambient;
   IlluminanceMaps maps;
+  PlaneMaps planes;
   std::uint64_t memory_bytes = 0;  // what the caller gave
   std::uint64_t overhead = 0;      // the part of it before the arena: this structure
   Arena::Mark after_scene = 0;

@@ -51,6 +51,8 @@ void count_scene(Model& model) {
   Statistics& statistics = model.statistics;
   statistics.objects = static_cast<std::uint32_t>(model.scene.objects.size());
   statistics.meshes = static_cast<std::uint32_t>(model.scene.meshes.size());
+  statistics.planes = static_cast<std::uint32_t>(model.scene.planes.size());
+  statistics.plane_sub_patches = model.scene.plane_sub_patch_count;
   statistics.channels = model.scene.channels;
   statistics.lattice_step = model.geometry.lattice.step();
   statistics.vertices_inserted = model.geometry.inserted;
@@ -135,6 +137,11 @@ Status light_and_map(Model& model, const Progress& progress) {
   end_stage(model, MemoryStage::kAmbient);
   if (!status.done()) return status;
   model.before_maps = model.arena.mark();
+  if (!model.scene.planes.empty()) {
+    status = measure_planes({model.scene, model.geometry, model.patches, model.direct, model.ambient}, model.options,
+                            intersector, progress, model.arena, model.planes, model.statistics);
+    if (!status.done()) return status;
+  }
   status = keep_sub_patches(model, intersector, progress);
   end_stage(model, MemoryStage::kDirect);
   if (!status.done()) return status;
@@ -157,6 +164,9 @@ void give_up_patches(Model& model) {
   const bool with_direct = !model.arena.holds(model.direct.sub_patch_lx);
   const std::size_t by = model.arena.lower(model.before_maps, model.after_geometry);
   model.before_maps = model.after_geometry;
+  move_down(model.planes.direct_lx, by);
+  move_down(model.planes.ambient_lx, by);
+  move_down(model.planes.hidden, by);
   move_down(model.maps.ambient_lx, by);
   if (with_direct) {
     move_down(model.direct.sub_patch_lx, by);

@@ -221,6 +221,9 @@ constexpr OptionRule kOptions[] = {
     {"--stats", "FILE", kForTables, "a name, or - for standard output",
      "what was counted and how long it took, as JSON",
      [](std::string_view t, Arguments& a) { return take_text(t, a.statistics); }},
+    {"--summary", "FILE", kForTables, "a name, or - for standard output",
+     "illuminance of each object and measuring plane: mean, least, greatest, uniformity, as CSV",
+     [](std::string_view t, Arguments& a) { return take_text(t, a.summary); }},
     {"--quiet", "", kForAll, "", "no progress, no warnings",
      [](std::string_view, Arguments& a) { return a.quiet = true; }},
     {"--help", "", kForAll, "", "this text",
@@ -336,9 +339,13 @@ class Words {
       mistake_ = "-o: expected a name that ends in .png or .ppm, found " + quoted(a.output);
     } else if (!is_picture && a.output == "-") {
       mistake_ = "-o: expected the name of a folder, found '-'";
-    } else if ((!a.csv.empty() && (a.csv == a.statistics || a.csv == a.output)) ||
-               (!a.statistics.empty() && a.statistics == a.output)) {
-      mistake_ = "two outputs have the same name " + quoted(a.csv == a.output ? a.csv : a.statistics);
+    } else {
+      const std::string names[] = {a.output, a.csv, a.statistics, a.summary};
+      for (std::size_t k = 0; k < 4; ++k) {
+        for (std::size_t before = 0; before < k; ++before) {
+          if (!names[k].empty() && names[k] == names[before]) mistake_ = "two outputs have the same name " + quoted(names[k]);
+        }
+      }
     }
   }
 

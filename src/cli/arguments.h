@@ -20,6 +20,7 @@ struct Arguments {
   Options options;                 // options.camera views the words of the command line
   std::string csv;                 // "-": standard output; empty: none
   std::string statistics;
+  std::string summary;
   bool quiet = false;
 };
 

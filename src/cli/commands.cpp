@@ -8,44 +8,47 @@
 #include "cli/picture_file.h"
 #include "cli/run.h"
 #include "cli/statistics_file.h"
+#include "cli/summary.h"
 #include "cli/table.h"
 
 namespace shodo {
 
 namespace {
 
-/// The tables beside the main output.
+/// The tables beside the main output; one without a name is not asked for.
 class Tables {
  public:
-  explicit Tables(const Arguments& arguments) : csv_(arguments.csv), statistics_(arguments.statistics) {}
+  explicit Tables(const Arguments& a) : file_{OutputFile(a.csv), OutputFile(a.statistics), OutputFile(a.summary)} {}
 
   bool probe(FileError& error) {
-    return (!has_csv() || csv_.probe(error)) && (!has_statistics() || statistics_.probe(error));
+    for (OutputFile& file : file_) {
+      if (!file.name().empty() && !file.probe(error)) return false;
+    }
+    return true;
   }
 
   /// Standard output comes last: what is there can't be taken back.
   bool write(Run& run, FileError& error) {
-    if (csv_.name() == "-") return write_statistics(run, error) && write_csv(run, error);
-    return write_csv(run, error) && write_statistics(run, error);
+    for (const bool last : {false, true}) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        OutputFile& file = file_[k];
+        if (file.name().empty() || (file.name() == "-") != last) continue;
+        if (!file.open(error) || !write(k, run, file, error) || !file.close(error)) return false;
+      }
+    }
+    return true;
   }
 
-  bool commit(FileError& error) { return csv_.commit(error) && statistics_.commit(error); }
+  bool commit(FileError& error) { return file_[0].commit(error) && file_[1].commit(error) && file_[2].commit(error); }
 
  private:
-  bool has_csv() const { return !csv_.name().empty(); }
-  bool has_statistics() const { return !statistics_.name().empty(); }
-
-  bool write_csv(Run& run, FileError& error) {
-    return !has_csv() || (csv_.open(error) && write_table(run.model(), csv_, error) && csv_.close(error));
+  static bool write(std::size_t table, Run& run, OutputFile& file, FileError& error) {
+    if (table == 0) return write_table(run.model(), file, error);
+    if (table == 2) return file.write(summary_table(run.model()), error);
+    return file.write(statistics_json(run.model(), run.arguments().scene, run.watch()), error);
   }
 
-  bool write_statistics(Run& run, FileError& error) {
-    if (!has_statistics()) return true;
-    const std::string text = statistics_json(run.model(), run.arguments().scene, run.watch());
-    return statistics_.open(error) && statistics_.write(text, error) && statistics_.close(error);
-  }
-
-  OutputFile csv_, statistics_;
+  OutputFile file_[3];
 };
 
 /// After something returned false: a file's fault, or the user's wish.

@@ -15,7 +15,8 @@ struct Statement {
 constexpr Statement kStatements[] = {
     {"camera", read_camera}, {"display", read_display},   {"grid", read_grid}, {"include", read_include},
     {"light", read_light},   {"material", read_material}, {"obj", read_obj},   {"object", read_object},
-    {"quad", read_quad},     {"sub", read_sub},           {"tri", read_tri},   {"unit", read_unit},
+    {"plane", read_plane},   {"quad", read_quad},         {"sub", read_sub},   {"tri", read_tri},
+    {"unit", read_unit},
 };
 
 bool expected_statement(Words& words) {
