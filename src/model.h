@@ -11,6 +11,7 @@
 #include "light/direct.h"
 #include "map/illuminance_map.h"
 #include "map/plane_maps.h"
+#include "picture/seen_points.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
 #include "shodo/shodo.h"
@@ -44,5 +45,8 @@ struct Model {
   Statistics loaded;               // and what was counted until then
   bool solved = false;
 };
+
+/// What every sample of the picture of a solved model sees. Errors: as draw().
+Status see(Model& model, const Progress& progress, const SeenSink& sink);
 
 }  // namespace shodo

@@ -181,8 +181,9 @@ void give_up_patches(Model& model) {
   model.ambient = {};
 }
 
-/// The drawn triangles, if the light took their memory, and the picture.
-Status place_and_draw(Model& model, const Progress& progress, const LineSink& sink) {
+/// The drawn triangles, if the light took their memory, and then what is made of them: draw(arena).
+template <class Draw>
+Status place_and_draw(Model& model, Draw draw) {
   Geometry& geometry = model.geometry;
   Arena& arena = model.arena;
   const bool held = arena.holds(geometry.drawn) && geometry.drawn.size() == geometry.drawn_count;
@@ -194,9 +195,22 @@ Status place_and_draw(Model& model, const Progress& progress, const LineSink& si
     if (!place_drawn(model.scene, arena, geometry)) return arena.refused();
     model.statistics.placed_again = 1;
   }
-  const Status status = draw_picture(model.scene, geometry, model.maps, model.options, progress, arena, sink);
+  const Status status = draw(arena);
   if (!held) geometry.drawn = {};
   return status;
+}
+
+template <class Draw>
+Status draw_solved(Model& model, const Progress& progress, Draw draw) {
+  if (const Status fit = self_check(); !fit.done()) return fit;
+  if (!model.solved) return wrong_use("expected a solved model, found one that is only loaded");
+  const std::uint64_t needed = smallest_memory(model);
+  if (needed > model.memory_bytes) return too_small(needed, model.memory_bytes);
+  if (!progress.go_on(Stage::kPicture, 0, 1)) return interrupted();
+  model.arena.start_stage();
+  const Status status = place_and_draw(model, draw);
+  end_stage(model, MemoryStage::kPicture);
+  return with_model(status, model.overhead);
 }
 
 }  // namespace
@@ -256,15 +270,15 @@ Status solve(Model& model, const Progress& progress) {
 }
 
 Status draw(Model& model, const Progress& progress, const LineSink& sink) {
-  if (const Status fit = self_check(); !fit.done()) return fit;
-  if (!model.solved) return wrong_use("expected a solved model, found one that is only loaded");
-  const std::uint64_t needed = smallest_memory(model);
-  if (needed > model.memory_bytes) return too_small(needed, model.memory_bytes);
-  if (!progress.go_on(Stage::kPicture, 0, 1)) return interrupted();
-  model.arena.start_stage();
-  const Status status = place_and_draw(model, progress, sink);
-  end_stage(model, MemoryStage::kPicture);
-  return with_model(status, model.overhead);
+  return draw_solved(model, progress, [&](Arena& arena) {
+    return draw_picture(model.scene, model.geometry, model.maps, model.options, progress, arena, sink);
+  });
+}
+
+Status see(Model& model, const Progress& progress, const SeenSink& sink) {
+  return draw_solved(model, progress, [&](Arena& arena) {
+    return see_points(model.scene, model.geometry, model.options, progress, arena, sink);
+  });
 }
 
 const Statistics& statistics(const Model& model) { return model.statistics; }

@@ -4,7 +4,10 @@
 // names together at the end, so that a run which fails or is interrupted leaves nothing.
 #include "cli/commands.h"
 
+#include <algorithm>
+
 #include "cli/map_files.h"
+#include "cli/measured_picture.h"
 #include "cli/picture_file.h"
 #include "cli/run.h"
 #include "cli/statistics_file.h"
@@ -69,6 +72,35 @@ int finish(Run& run, Output& output, Tables& tables) {
   return 0;
 }
 
+/// The canvas gets the picture's lines; its rows must be there.
+LineSink canvas_sink(Canvas& canvas) {
+  return {[](void* to, std::uint32_t y, std::span<const std::uint8_t> rgb) {
+            Canvas& c = *static_cast<Canvas*>(to);
+            std::copy(rgb.begin(), rgb.end(), c.rgb.begin() + std::ptrdiff_t{3} * c.width * y);
+            return true;
+          },
+          &canvas};
+}
+
+/// The picture that measures, into the file.
+int draw_measured(Run& run, const LineSink& lines, FileError& error) {
+  const Arguments& a = run.arguments();
+  Canvas canvas{a.options.width, a.options.height, {}};
+  canvas.rgb.resize(std::size_t{3} * canvas.width * canvas.height);
+  MeasuredPicture picture(run.model(), a.measured);
+  if (!a.measured.false_colour) {
+    if (const int status = run.draw(canvas_sink(canvas), error); status != 0) return status;
+  }
+  if (const int status = run.see(picture.sink()); status != 0) return status;
+  picture.finish(canvas);
+  const std::size_t line = std::size_t{3} * canvas.width;
+  for (std::uint32_t y = 0; y < canvas.height; ++y) {
+    const std::span<const std::uint8_t> rgb(&canvas.rgb[y * line], line);
+    if (!lines.line(lines.context, y, rgb)) return tell_why(run, error);
+  }
+  return 0;
+}
+
 }  // namespace
 
 int render(const Arguments& arguments) {
@@ -81,7 +113,9 @@ int render(const Arguments& arguments) {
   if (const int status = run.find_camera(); status != 0) return status;
   if (const int status = run.solve(); status != 0) return status;
   if (!picture.open(error)) return run.tell(error);
-  if (const int status = run.draw(picture.sink(error), error); status != 0) return status;
+  const LineSink lines = picture.sink(error);
+  const int drawn = arguments.measured.any() ? draw_measured(run, lines, error) : run.draw(lines, error);
+  if (drawn != 0) return drawn;
   if (!picture.close(error)) return run.tell(error);
   return finish(run, picture, tables);
 }

@@ -8,7 +8,9 @@ Status measure_planes(const SolvedPatches& solved, const Options& options, Inter
   const ArenaScratch scratch(arena);
   const IntersectorScratch seeking(intersector);
   if (!intersector.start(arena)) return arena.refused();
-  const auto segments = [&] { return intersector.segments(LightSet::kDirect) + intersector.segments(LightSet::kAmbient); };
+  const auto segments = [&] {
+    return intersector.segments(LightSet::kDirect) + intersector.segments(LightSet::kAmbient);
+  };
   const auto tests = [&] { return intersector.tests(LightSet::kDirect) + intersector.tests(LightSet::kAmbient); };
   const std::uint64_t segments_before = segments(), tests_before = tests();
   Status status = light_planes(solved.scene, solved.geometry, options, intersector, progress, arena, maps);

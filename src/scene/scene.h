@@ -103,6 +103,7 @@ struct Camera {
 struct Display {
   double min_cd_m2 = 1;
   double max_cd_m2 = 250;
+  bool roll = false;  // brightness beyond half of the range is rolled off; else it is clipped at the maximum
 };
 
 struct Scene {

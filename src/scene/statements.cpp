@@ -168,7 +168,7 @@ bool read_unit(SceneReading& reading) {
   return words.expected("m, cm, mm, in or ft");
 }
 
-/// display MIN MAX: once.
+/// display MIN MAX [clip|roll]: once.
 bool read_display(SceneReading& reading) {
   Words& words = reading.words;
   if (reading.display_given) return words.expected(reading.statement, "'display' once only");
@@ -177,6 +177,11 @@ bool read_display(SceneReading& reading) {
   const Token at = words.peek();
   if (!read_number(words, {"display maximum, cd/m2"}, kNotNegative, display.max_cd_m2)) return false;
   if (!(display.max_cd_m2 > display.min_cd_m2)) return words.expected(at, "a display maximum above the minimum");
+  if (words.at_word()) {
+    display.roll = words.peek().text == "roll";
+    if (!display.roll && words.peek().text != "clip") return words.expected("clip, roll or the end of the line");
+    words.take();
+  }
   return reading.display_given = true;
 }
 

@@ -85,11 +85,13 @@ TEST(PlaneMaps, OneReflectionGivesTheTablesValuesOnWallAndCeiling) {
 // patches of 0.2 % each: at the edge of the box's shadow up to 1/8 of a row is taken for lit or dark.
 TEST(PlaneMaps, AnObstructionTakesWhatTheTableSays) {
   const double floor[][2] = {{0.25, 3.382}, {0.75, 3.629}, {1.25, 3.013}, {1.75, 0}, {2.25, 0}};
-  const double wall[][2] = {{0.25, 7.079}, {0.75, 10.317}, {1.25, 13.322}, {1.75, 15.399}, {2.25, 16.330}, {2.75, 16.071}};
+  const double wall[][2] = {{0.25, 7.079},  {0.75, 10.317}, {1.25, 13.322},
+                            {1.75, 15.399}, {2.25, 16.330}, {2.75, 16.071}};
   const SolvedScene scene(kHead +
                           "object lit\nquad grey 0 4 0  4 4 0  4 4 3  0 4 3 patches 8 96 sub 1 1\n"
                           "object box\nquad black 0 2.5 0  4 2.5 0  4 2.5 1  0 2.5 1\n"
-                          "quad black 0 2.5 1  4 2.5 1  4 2.7 1  0 2.7 1\nquad black 0 2.7 0  0 2.7 1  4 2.7 1  4 2.7 0\n"
+                          "quad black 0 2.5 1  4 2.5 1  4 2.7 1  0 2.7 1\n"
+                          "quad black 0 2.7 0  0 2.7 1  4 2.7 1  4 2.7 0\n"
                           "light sun sun towards 0 1 0 illuminance 200 direct -shadowed_leaving\n"
                           "plane floor 1.75 0 0  2.25 0 0  2.25 2.5 0  1.75 2.5 0 patches 1 5 sub 1 1\n"
                           "plane wall 1.75 0 0  1.75 0 3  2.25 0 3  2.25 0 0 patches 6 1 sub 1 1\n",

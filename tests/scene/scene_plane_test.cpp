@@ -47,9 +47,11 @@ TEST(ScenePlane, IsRefusedWithItsPlaceWhereItCanNotBe) {
   const struct {
     std::string text, expected;
   } cases[] = {
-      {"plane p 0 0 0  1 0 0  1 1 0.2  0 1 0", "top.scn:2:9: expected the four corners of a plane convex quad with an area"},
+      {"plane p 0 0 0  1 0 0  1 1 0.2  0 1 0",
+       "top.scn:2:9: expected the four corners of a plane convex quad with an area"},
       {"plane p 0 0 0  1 0 0  1 1 0", "top.scn:2:28: expected a number (x of corner 4), found the end of the line"},
-      {"plane p" + kSquare + "\nplane p" + kSquare, "top.scn:3:7: expected the name of a plane not used before, found 'p'"},
+      {"plane p" + kSquare + "\nplane p" + kSquare,
+       "top.scn:3:7: expected the name of a plane not used before, found 'p'"},
       {"plane p" + kSquare + " patches 70000 1", "top.scn:2:44: expected a whole number"},
       {"plane p" + kSquare + " patches 65535 65535 sub 60000 60000", "top.scn:2:1: expected at most 65535 pieces"},
   };
