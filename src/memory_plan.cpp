@@ -25,8 +25,8 @@ std::uint64_t drawn_bytes(const Model& model) {
 /// What load() leaves, and what it takes meanwhile.
 void plan_scene(const Model& model, MemoryPlan& plan) {
   plan.add("the model", "its structure, and up to 7 for alignment", model.overhead, kAll);
-  plan.add("scene", "40 materials + 40 objects + 56 meshes + 24 vertices + 248 lights + 96 cameras + names",
-           model.after_scene, kAll);
+  plan.add("scene",
+           "40 materials + 40 objects + 56 meshes + 24 vertices + 248 lights + 96 cameras + 136 planes + names", model.after_scene, kAll);
   plan.add("triangles that block", "72 triangles + 8 polygons + 4 meshes + 20 lights",
            model.after_geometry - model.after_scene, kAll);
   plan.add("triangles of the picture", "68 drawn triangles; spare: given up while there is light to find",
@@ -58,6 +58,14 @@ void plan_light(const Model& model, MemoryPlan& plan) {
            "rows: what is left", ambient - result - surfaces - links, kAmbient);
   plan.add("direct light of the sub-patches", "(4 c + 1) s; spare: given up to the rows", direct_sub_patch_bytes(scene),
            kAgain | kMap | kPicture);
+}
+
+/// Nothing for scenes without planes.
+void plan_planes(const Model& model, MemoryPlan& plan) {
+  if (model.scene.planes.empty()) return;
+  plan.add("light of measuring planes", "(8 c + 1) sub-patches of planes", plane_map_bytes(model.scene),
+           kAgain | kMap | kPicture);
+  plan.add("while measuring", "(44 + 8 c) sub-patches of a plane's patch", gather_bytes(model.scene), kAgain);
 }
 
 void plan_picture(const Model& model, MemoryPlan& plan) {
@@ -104,6 +112,7 @@ MemoryPlan plan_memory(const Model& model, bool picture) {
   MemoryPlan plan;
   plan_scene(model, plan);
   plan_light(model, plan);
+  plan_planes(model, plan);
   plan_picture(model, plan);
   if (!picture) plan.stage[static_cast<std::size_t>(PlanStage::kPicture)] = 0;
   return plan;
@@ -115,12 +124,13 @@ bool keeps_geometry(const Model& model) {
   const std::uint64_t flags = options.flags == FlagMode::kOff ? 0 : FlagTables::bytes(scene);
   const std::uint64_t blockers = Intersector::bytes(model.geometry, options.flags);
   const std::uint64_t patches = model.after_patches + flags + direct_patch_bytes(scene);
-  const std::uint64_t solved = patches + ambient_result_bytes(scene) + direct_sub_patch_bytes(scene);
+  const std::uint64_t solved = patches + ambient_result_bytes(scene) + direct_sub_patch_bytes(scene) +
+                               plane_map_bytes(scene);
   const std::uint64_t ambient = smallest_ambient_bytes(scene, model.geometry, options, SurfacesKeep::kGeometry);
   const std::uint64_t rows = expected_row_bytes(scene, options);
   // Geometry costs less to find again than the direct light that would have to make room for it.
   std::uint64_t most = patches + blockers + ambient + rows + (rows > 0 ? direct_sub_patch_bytes(scene) : 0);
-  most = larger(most, solved + blockers + Sources::bytes(scene));
+  most = larger(most, solved + blockers + Sources::bytes(scene) + gather_bytes(scene));
   most = larger(most, solved + map_bytes(scene, options));
   return most <= model.arena.capacity();
 }

@@ -10,6 +10,8 @@
 #include "base/arena.h"
 #include "light/direct.h"
 #include "map/illuminance_map.h"
+#include "map/plane_maps.h"
+#include "picture/seen_points.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
 #include "shodo/shodo.h"
@@ -31,6 +33,7 @@ struct Model {
   DirectLight direct;
   AmbientLight ambient;
   IlluminanceMaps maps;
+  PlaneMaps planes;
   std::uint64_t memory_bytes = 0;  // what the caller gave
   std::uint64_t overhead = 0;      // the part of it before the arena: this structure
   Arena::Mark after_scene = 0;
@@ -42,5 +45,8 @@ struct Model {
   Statistics loaded;               // and what was counted until then
   bool solved = false;
 };
+
+/// What every sample of the picture of a solved model sees. Errors: as draw().
+Status see(Model& model, const Progress& progress, const SeenSink& sink);
 
 }  // namespace shodo

@@ -182,7 +182,8 @@ std::uint16_t display_steps(double v) {
 }
 
 std::uint16_t luminance_steps(const Display& display, double luminance_cd_m2) {
-  return display_steps((luminance_cd_m2 - display.min_cd_m2) / (display.max_cd_m2 - display.min_cd_m2));
+  const double v = (luminance_cd_m2 - display.min_cd_m2) / (display.max_cd_m2 - display.min_cd_m2);
+  return display_steps(display.roll && v > 0.5 ? 1 - 0.25 / v : v);
 }
 
 void fill_display_table(std::span<std::uint8_t> level) {

@@ -8,8 +8,6 @@
 
 namespace shodo {
 
-namespace {
-
 const Camera* find_camera(const Scene& scene, std::string_view name) {
   if (name.empty()) return scene.cameras.empty() ? nullptr : &scene.cameras[0];
   for (const Camera& camera : scene.cameras) {
@@ -30,6 +28,8 @@ Status no_camera(const Scene& scene, std::string_view name) {
   }
   return status;
 }
+
+namespace {
 
 SampleGrid grid_of(const Camera& camera, const Lattice& lattice, const Options& options) {
   const View view = view_of(camera, lattice, options.width, options.height);

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "base/arena.h"
 #include "map/illuminance_map.h"
@@ -17,6 +18,10 @@
 #include "visibility/geometry.h"
 
 namespace shodo {
+
+/// The first for an empty name; null if there is none, and why.
+const Camera* find_camera(const Scene& scene, std::string_view name);
+Status no_camera(const Scene& scene, std::string_view name);
 
 /// Draws the camera's view. Errors: kMemory, kInterrupted; kUsage for a camera that the scene doesn't have.
 Status draw_picture(const Scene& scene, const Geometry& geometry, const IlluminanceMaps& maps, const Options& options,

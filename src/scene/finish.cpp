@@ -34,6 +34,9 @@ Box box_of(const Scene& scene) {
     for (std::uint32_t k = 0; k < corner_count(light); ++k) box.add(light.corners[k]);
   }
   for (const Camera& camera : scene.cameras) box.add(camera.eye);
+  for (const Plane& plane : scene.planes) {
+    for (const Vec3& corner : plane.corners) box.add(corner);
+  }
   return box;
 }
 
@@ -70,6 +73,9 @@ void centre_scene(Scene& scene) {
   for (Camera& camera : scene.cameras) {
     camera.eye = box.centred(camera.eye);
     camera.look = box.centred(camera.look);
+  }
+  for (Plane& plane : scene.planes) {
+    for (Vec3& corner : plane.corners) corner = box.centred(corner);
   }
 }
 

@@ -80,6 +80,20 @@ struct Light {
   GivenFlags direct, ambient;
 };
 
+/// A measuring plane: a plane convex quadrilateral that receives light on its front and does nothing else. It is no
+/// mesh: it neither blocks nor reflects, it isn't drawn, and it is in no count of patches.
+struct Plane {
+  std::string_view name;
+  Vec3 corners[4];                // front towards (c1-c0) x (c2-c0)
+  std::uint32_t nu = 0, nv = 0;   // as of a quad
+  std::uint32_t su = 0, sv = 0;
+  std::uint32_t first_sub_patch = 0;  // among those of all planes
+
+  std::uint32_t width() const { return nu * su; }  // sub-patches
+  std::uint32_t height() const { return nv * sv; }
+  std::uint32_t sub_patch_count() const { return width() * height(); }
+};
+
 struct Camera {
   std::string_view name;
   Vec3 eye, look, up;
@@ -89,12 +103,13 @@ struct Camera {
 struct Display {
   double min_cd_m2 = 1;
   double max_cd_m2 = 250;
+  bool roll = false;  // brightness beyond half of the range is rolled off; else it is clipped at the maximum
 };
 
 struct Scene {
   double metres_per_unit = 1;
   Vec3 origin;              // scene units: what was subtracted from every coordinate
-  Vec3 half_extent;         // of the box of geometry, point lights and cameras
+  Vec3 half_extent;         // of the box of geometry, planes, point lights and cameras
   Display display;
   std::uint32_t channels = 1;
   std::span<Material> materials;
@@ -103,8 +118,10 @@ struct Scene {
   std::span<Vec3> vertices;
   std::span<Light> lights;  // as an object for flags: index objects.size() + light
   std::span<Camera> cameras;
+  std::span<Plane> planes;
   std::uint32_t patch_count = 0;
   std::uint32_t sub_patch_count = 0;
+  std::uint32_t plane_sub_patch_count = 0;
   std::uint32_t polygons_dropped = 0;  // faces without area that the file has
 
   double largest_half_extent() const {

@@ -15,7 +15,8 @@ struct Statement {
 constexpr Statement kStatements[] = {
     {"camera", read_camera}, {"display", read_display},   {"grid", read_grid}, {"include", read_include},
     {"light", read_light},   {"material", read_material}, {"obj", read_obj},   {"object", read_object},
-    {"quad", read_quad},     {"sub", read_sub},           {"tri", read_tri},   {"unit", read_unit},
+    {"plane", read_plane},   {"quad", read_quad},         {"sub", read_sub},   {"tri", read_tri},
+    {"unit", read_unit},
 };
 
 bool expected_statement(Words& words) {
@@ -167,7 +168,7 @@ bool read_unit(SceneReading& reading) {
   return words.expected("m, cm, mm, in or ft");
 }
 
-/// display MIN MAX: once.
+/// display MIN MAX [clip|roll]: once.
 bool read_display(SceneReading& reading) {
   Words& words = reading.words;
   if (reading.display_given) return words.expected(reading.statement, "'display' once only");
@@ -176,6 +177,11 @@ bool read_display(SceneReading& reading) {
   const Token at = words.peek();
   if (!read_number(words, {"display maximum, cd/m2"}, kNotNegative, display.max_cd_m2)) return false;
   if (!(display.max_cd_m2 > display.min_cd_m2)) return words.expected(at, "a display maximum above the minimum");
+  if (words.at_word()) {
+    display.roll = words.peek().text == "roll";
+    if (!display.roll && words.peek().text != "clip") return words.expected("clip, roll or the end of the line");
+    words.take();
+  }
   return reading.display_given = true;
 }
 

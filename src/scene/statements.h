@@ -16,7 +16,7 @@ namespace shodo {
 
 /// Something whose place in the file is asked for afterwards: a mistake that shows only when the whole scene is known.
 struct Wanted {
-  enum class Kind : std::uint8_t { kNothing, kMesh, kCamera };
+  enum class Kind : std::uint8_t { kNothing, kMesh, kCamera, kPlane };
   Kind kind = Kind::kNothing;
   std::uint32_t index = 0;
 };
@@ -57,8 +57,11 @@ bool read_tri(SceneReading& reading);
 bool read_grid(SceneReading& reading);
 bool read_obj(SceneReading& reading);
 bool read_sub(SceneReading& reading);
+bool read_plane(SceneReading& reading);
 // light_statements.cpp
 bool read_light(SceneReading& reading);
+/// Four different corners of a convex quad, in one plane as nearly as it matters.
+bool read_plane_quad(SceneReading& reading, Vec3* corners);
 
 /// A word that values follow, inside a statement; `kinds` and `required` are sets of bits, one a kind of statement.
 template <class T>
