@@ -11,6 +11,7 @@ constexpr double kLobeEnd = 0x1p-20;
 constexpr double kWidest = 0.5;          // radians, of a cell
 constexpr std::uint32_t kMostCells = 64;  // along a face's side
 constexpr std::uint32_t kMostPoints = 17711;
+constexpr double kCorner = 1.0 / 64;
 constexpr double kSmall = 0.25;           // of a lobe's width
 constexpr double kGauss = 0x1.279a74590331cp-2;  // 1 / (2 sqrt(3)) of a cell, from its centre
 
@@ -211,6 +212,10 @@ void Highlights::add_piece(const Emitter& emitter, const Piece& piece, double wa
     for (std::uint32_t column = 0; column < 2 * cells; ++column) {
       add_at(emitter, piece, place(column), place(row), size * size / 4, look, sum);
     }
+  }
+  // Slivers beside all points are noticed from the corners, which count nothing.
+  for (std::uint32_t k = 0; k < 4 && wanted >= kSmall && !sum.mixed(); ++k) {
+    add_at(emitter, piece, k % 2 == 0 ? kCorner : 1 - kCorner, k < 2 ? kCorner : 1 - kCorner, 0, look, sum);
   }
   if (sum.mixed()) {
     sum = {};

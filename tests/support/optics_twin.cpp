@@ -138,15 +138,14 @@ Colour OpticsTwin::highlight(const Optics& optics, const Point& at, const Point&
   const auto add_quad = [&](const Light& light, const std::array<Point, 4>& corner, int points) {
     const Point across = cross(sub(corner[1], corner[0]), sub(corner[2], corner[0]));
     const Point front = unit(across);
-    for (int i = 0; i < points; ++i) {
-      for (int j = 0; j < points; ++j) {
-        const double s = (i + 0.5) / points, t = (j + 0.5) / points;
-        const Point p = along(along(corner[0], s, sub(corner[1], corner[0])), t, sub(corner[3], corner[0]));
-        const Point to = sub(p, at);
-        const double d = std::sqrt(dot(to, to)), other = -dot(front, to) / d;
-        const double area = std::sqrt(dot(across, across)) / (points * points);
-        if (other > 0) add(light, to, light.strength * other * area / (d * d), 1 - 1e-4);  // not the light itself
-      }
+    for (int k = 0; k < points; ++k) {
+      // Spread by irrational steps (Roberts 2018): the edge of a shadow never lies along a row of points.
+      const double s = std::fmod(0.5 + k * 0.7548776662466927, 1), t = std::fmod(0.5 + k * 0.5698402909980532, 1);
+      const Point p = along(along(corner[0], s, sub(corner[1], corner[0])), t, sub(corner[3], corner[0]));
+      const Point to = sub(p, at);
+      const double d = std::sqrt(dot(to, to)), other = -dot(front, to) / d;
+      const double area = std::sqrt(dot(across, across)) / points;
+      if (other > 0) add(light, to, light.strength * other * area / (d * d), 1 - 1e-4);  // not the light itself
     }
   };
   for (const Light& light : scene_.lights) {

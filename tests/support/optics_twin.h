@@ -26,7 +26,7 @@ class OpticsTwin {
   /// Of a pixel: the mean of its samples, none above white, as 8-bit sRGB; the samples moved by so many of them.
   std::array<int, 3> level(std::uint32_t px, std::uint32_t py, double dx = 0, double dy = 0) const;
 
-  int light_points = 40;  // along an area light's side
+  int light_points = 2000;  // of an area light
 
  private:
   struct Triangle {
