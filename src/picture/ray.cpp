@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "visibility/half_open.h"
+
 namespace shodo {
 
 namespace {
@@ -27,15 +29,6 @@ int shift_to(std::int64_t a, int bits) {
 }
 
 LatticeVector normal_of(const DrawnTriangle& t) { return cross(t.vertex[1] - t.vertex[0], t.vertex[2] - t.vertex[0]); }
-
-/// d.(a x b), and where that is zero the sign of d turned by a hair: -1, 0 or 1 in `sign`.
-std::int64_t edge_side(const LatticeVector& d, const LatticeVector& a, const LatticeVector& b, int& sign) {
-  const LatticeVector n = cross(a, b);
-  const std::int64_t value = dot(d, n);
-  const std::int64_t decides = value != 0 ? value : n.x != 0 ? n.x : n.y != 0 ? n.y : n.z;
-  sign = decides > 0 ? 1 : decides < 0 ? -1 : 0;
-  return value;
-}
 
 std::int32_t odd_near(std::int64_t whole, std::int64_t part, std::int64_t of) {
   // whole + part / of to the odd number that is nearest: 2 floor(x / 2) + 1.
@@ -65,16 +58,14 @@ LatticeVector ray_direction(const LatticeVector& any) {
 bool meet(const DrawnTriangle& triangle, std::uint32_t index, const Ray& ray, RayHit& hit) {
   const LatticeVector &d = ray.direction, a = triangle.vertex[0] - ray.origin, b = triangle.vertex[1] - ray.origin,
                       c = triangle.vertex[2] - ray.origin;
-  int sign_ab, sign_bc, sign_ca;
-  const std::int64_t ab = edge_side(d, a, b, sign_ab);
-  const std::int64_t bc = edge_side(d, b, c, sign_bc);
-  if (sign_ab != sign_bc || sign_ab == 0) return false;
-  const std::int64_t ca = edge_side(d, c, a, sign_ca);
-  if (sign_ca != sign_ab) return false;
-  const std::int64_t through = ab + bc + ca;
+  const EdgeSide ab = edge_side(d, a, b), bc = edge_side(d, b, c);
+  if (ab.sign != bc.sign || ab.sign == 0) return false;
+  const EdgeSide ca = edge_side(d, c, a);
+  if (ca.sign != ab.sign) return false;
+  const std::int64_t through = ab.value + bc.value + ca.value;
   const std::int64_t side = -dot(a, cross(b, c));  // s(origin)
   if (through > 0 ? side >= 0 : through == 0 || side <= 0) return false;
-  hit = {index, side > 0, magnitude(side), magnitude(through), magnitude(ca), magnitude(ab)};
+  hit = {index, side > 0, magnitude(side), magnitude(through), magnitude(ca.value), magnitude(ab.value)};
   return true;
 }
 

@@ -4,9 +4,7 @@
 // determinants fit 64 bits, as for segments (visibility/triangle_test.h). It meets the triangles that are drawn, not
 // those that block: what a mirror shows is what the camera would see.
 //
-// A ray through an edge or a corner must meet a triangulated pane once, not twice or never. So the direction counts as
-// turned by a hair towards +x, by a hair of that towards +y, and by a hair of that towards +z: where a determinant
-// d.(A x B) is zero, the first component of A x B that isn't gives the sign. All triangles see the same direction.
+// A ray through an edge or a corner meets a triangulated pane once, not twice or never: visibility/half_open.h.
 //
 // Exact: which triangles are met, and their order along the ray; ties as in the picture (wins_tie). Approximate: the
 // map coordinates of a hit, to 1/1000 sub-patch, and the point of a hit, to two lattice steps.
