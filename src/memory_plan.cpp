@@ -1,6 +1,7 @@
 #include "memory_plan.h"
 
 #include "ambient/ambient_memory.h"
+#include "ambient/coloured_panes.h"
 #include "ambient/surfaces.h"
 #include "base/check.h"
 #include "light/sources.h"
@@ -56,6 +57,9 @@ void plan_light(const Model& model, MemoryPlan& plan) {
            "17 facets", links, kAmbient);
   plan.add("solution", "16 c + 8 a node (+ 2 with rules 1 and 2, 16 with 2+) + one row + the coarse correction; "
            "rows: what is left", ambient - result - surfaces - links, kAmbient);
+  if (const std::uint64_t coloured = coloured_panes_bytes(scene, model.geometry); coloured > 0) {
+    plan.add("ambient light of one channel", "8 c n, where panes are coloured", coloured, kAmbient);
+  }
   plan.add("direct light of the sub-patches", "(4 c + 1) s; spare: given up to the rows", direct_sub_patch_bytes(scene),
            kAgain | kMap | kPicture);
 }
@@ -129,7 +133,8 @@ bool keeps_geometry(const Model& model) {
   const std::uint64_t ambient = smallest_ambient_bytes(scene, model.geometry, options, SurfacesKeep::kGeometry);
   const std::uint64_t rows = expected_row_bytes(scene, options);
   // Geometry costs less to find again than the direct light that would have to make room for it.
-  std::uint64_t most = patches + blockers + ambient + rows + (rows > 0 ? direct_sub_patch_bytes(scene) : 0);
+  const std::uint64_t coloured = coloured_panes_bytes(scene, model.geometry);
+  std::uint64_t most = patches + blockers + ambient + coloured + rows + (rows > 0 ? direct_sub_patch_bytes(scene) : 0);
   most = larger(most, solved + blockers + Sources::bytes(scene) + gather_bytes(scene));
   most = larger(most, solved + map_bytes(scene, options));
   return most <= model.arena.capacity();

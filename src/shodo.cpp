@@ -7,6 +7,7 @@
 
 #include <new>
 
+#include "ambient/coloured_panes.h"
 #include "base/self_check.h"
 #include "base/text.h"
 #include "memory_plan.h"
@@ -132,8 +133,8 @@ Status light_and_map(Model& model, const Progress& progress) {
                                  model.arena, model.direct, model.statistics);
   end_stage(model, MemoryStage::kDirect);
   if (!status.done()) return status;
-  status = light_ambiently(model.scene, model.geometry, model.patches, model.direct, intersector, model.options,
-                           progress, model.arena, model.ambient, model.statistics);
+  status = light_ambiently_through_panes(model.scene, model.geometry, model.patches, model.direct, intersector,
+                                         model.options, progress, model.arena, model.ambient, model.statistics);
   end_stage(model, MemoryStage::kAmbient);
   if (!status.done()) return status;
   model.before_maps = model.arena.mark();

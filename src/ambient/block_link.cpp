@@ -153,6 +153,8 @@ struct BlockJudge::Shots {
   Link link;
   bool front_i[4], front_j[4];  // seen from the other's front
   std::uint32_t free = 0, all = 0;
+  bool panes = false;  // may be between
+  double passed = 0;   // with panes: of the free ones, what they let through
 
   bool mixed() const { return free > 0 && free < all; }
 };
@@ -177,7 +179,10 @@ BlockJudge::Shots BlockJudge::shots_of(const RowSide& side, const Pair& pair) co
 void BlockJudge::shoot(Shots& shots, std::uint32_t k, std::uint32_t l) {
   if (!shots.front_i[k] || !shots.front_j[l]) return;
   ++shots.all;
-  if (!tools_.sight.blocked(shots.at_i[k], shots.at_j[l], shots.link, intersector_)) ++shots.free;
+  if (!tools_.sight.blocked(shots.at_i[k], shots.at_j[l], shots.link, intersector_)) {
+    ++shots.free;
+    if (shots.panes) shots.passed += intersector_.panes().pass(shots.at_i[k], shots.at_j[l]);
+  }
 }
 
 /// The visible fraction, or the order to split. Segment (k, k ^ m ^ turn) is the k-th of round m: each round meets
@@ -187,10 +192,10 @@ Step BlockJudge::look(const RowSide& side, const Pair& pair) {
   const std::uint32_t j = pair.j, points = surfaces_.cached_points, last = points - 1;
   const bool by_sixteen = within(pair.whole, kOfSixteen), full = pair.patches && !by_sixteen;
   found_.visible = {1, 0};
-  if (tools_.sight.clear(tools_.places.box(surfaces_, node_, own_place_, full),
-                         tools_.places.box(surfaces_, j, place_, full))) {
-    return Step::kLink;
-  }
+  const LatticeBox& box_i = tools_.places.box(surfaces_, node_, own_place_, full);
+  const LatticeBox& box_j = tools_.places.box(surfaces_, j, place_, full);
+  const bool panes = intersector_.panes().any() && intersector_.panes().between(box_i, box_j);
+  if (tools_.sight.clear(box_i, box_j) && !panes) return Step::kLink;
   if (full) {
     found_.visible = visible_fraction(surfaces_, node_, j, found_.pair.crossing, options_, intersector_,
                                       &tools_.sight, {}, dense_);
@@ -199,6 +204,7 @@ Step BlockJudge::look(const RowSide& side, const Pair& pair) {
   if (!by_sixteen) return pair.split;
   const std::uint32_t hash = (node_ * 0x9E3779B1u + j * 0x85EBCA77u) >> 20, turn = hash & last;
   Shots shots = shots_of(side, pair);
+  shots.panes = panes;
   if (pair.slight && !found_.pair.crossing) {
     shoot(shots, turn, hash >> 2 & last);
   } else {
@@ -218,6 +224,7 @@ Step BlockJudge::look(const RowSide& side, const Pair& pair) {
   const double n = shots.all, f = shots.free;
   found_.visible = n > 0 ? VisibleFraction{f / n, (f + 0.5) * (n - f + 0.5) / ((n + 1) * (n + 1) * (n + 2))}
                          : VisibleFraction{0, 0};
+  if (panes && n > 0) found_.visible.value = shots.passed / n;
   return Step::kLink;
 }
 

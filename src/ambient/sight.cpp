@@ -71,6 +71,7 @@ template <class Visit>
 bool any_facet(const Geometry& geometry, Visit visit) {
   for (const std::span<PolygonTriangles> polygons : {geometry.cells, geometry.light_triangles}) {
     for (const PolygonTriangles& polygon : polygons) {
+      if (geometry.is_pane(polygon)) continue;
       for (std::uint32_t k = 0; k < polygon.count; k += 2) {
         bool tilted = false;
         const std::uint32_t count = k + 1 < polygon.count ? 2 : 1;

@@ -99,7 +99,11 @@ struct PatchSums {
 class DirectStage {
  public:
   DirectStage(const Scene& scene, const Geometry& geometry, Sources& sources, DirectLight& direct)
-      : scene_(scene), geometry_(geometry), sources_(sources), direct_(direct) {}
+      : scene_(scene),
+        geometry_(geometry),
+        sources_(sources),
+        direct_(direct),
+        coloured_(sources.intersector().panes().coloured()) {}
 
   /// False if the progress callback asked to stop.
   bool light_patch(std::uint32_t mesh, std::uint32_t local, const Progress& progress);
@@ -113,6 +117,7 @@ class DirectStage {
   const Geometry& geometry_;
   Sources& sources_;
   DirectLight& direct_;
+  bool coloured_;  // panes: every channel by itself
   std::uint32_t done_ = 0;
   FlatFront front_;  // of the patch at work
 };
@@ -159,7 +164,12 @@ void DirectStage::light_one(std::uint32_t m, std::uint32_t cell, std::uint32_t l
   if (!(area > 0)) return;
   Receiver receiver = receiver_of(scene_, m, cell, piece);
   receiver.front = front_;
-  const SubPatchLight light = light_sub_patch(sources_, receiver, piece, is_thin(geometry_, piece));
+  SubPatchLight light = light_sub_patch(sources_, receiver, piece, is_thin(geometry_, piece));
+  for (std::uint32_t c = 1; c < scene_.channels && coloured_; ++c) {
+    sources_.intersector().set_channel(c);
+    light.lux[c] = light_sub_patch(sources_, receiver, piece, is_thin(geometry_, piece)).lux[c];
+    if (c == 2) sources_.intersector().set_channel(0);
+  }
   const std::uint32_t index = mesh.first_sub_patch + local;
   if (light.hidden) {
     if (!direct_.hidden.empty()) direct_.hidden[index] = 1;

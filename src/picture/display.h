@@ -28,8 +28,9 @@ std::uint16_t display_steps(double v);
 /// Luminance of a channel in display steps.
 std::uint16_t luminance_steps(const Display& display, double luminance_cd_m2);
 
-/// level[s] = round(255 sRGB(s / 8192)), s = 0 .. 8192.
-void fill_display_table(std::span<std::uint8_t> level);
+/// level[s] = round(255 sRGB(v)), s = 0 .. 8192, v = (s / 8192 - black) / (1 - black): steps from luminance 0 have the
+/// display's black at MIN / MAX.
+void fill_display_table(std::span<std::uint8_t> level, double black = 0);
 
 /// texel[(first_sub_patch + v width + u) channels + channel] of every mesh; a triangle's map is a square (see the
 /// .cpp).

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "picture/display.h"
+#include "picture/optics.h"
 #include "picture/shade.h"
 #include "picture/view.h"
 #include "picture/visible_lines.h"
@@ -43,6 +44,10 @@ struct Picture {
   SampleGrid grid;
   DisplayMaps maps;
   VisibleLines lines;
+  bool with_optics = false;
+  double black = 0;                // with optics: the display's MIN
+  PictureOptics optics;
+  Scene shown;                     // with optics: the scene on their display
   std::span<std::uint8_t> level;   // sRGB of display steps
   std::span<std::uint32_t> sums;   // [pixel * channels + channel]: display steps of a pixel's samples
   std::span<std::uint8_t> rgb;
@@ -54,8 +59,10 @@ bool prepare(Picture& picture, const IlluminanceMaps& maps, const Options& optio
   if (!arena.take("display table", kWhite + 1, picture.level)) return false;
   if (!arena.take("line of samples", std::size_t{options.width} * scene.channels, picture.sums)) return false;
   if (!arena.take("line of pixels", std::size_t{3} * options.width, picture.rgb)) return false;
-  fill_display_table(picture.level);
-  return picture.lines.start(scene, *picture.geometry, picture.grid, arena);
+  const Display& display = scene.display;
+  fill_display_table(picture.level, picture.with_optics ? picture.black / display.max_cd_m2 : 0);
+  if (!picture.lines.start(scene, *picture.geometry, picture.grid, arena)) return false;
+  return !picture.with_optics || picture.optics.start(scene, *picture.geometry, picture.maps, picture.grid, arena);
 }
 
 MapTexels texels_of(const Picture& picture, const Mesh& mesh) {
@@ -80,21 +87,39 @@ void add_light(Picture& picture, const Light& light, const VisibleSpan& span) {
   }
 }
 
-/// Adds one row of samples to the sums of its pixels; backs are black.
+/// Backs are black.
+void add_span(Picture& picture, const VisibleSpan& span, std::uint32_t row) {
+  if (!span.front) return;
+  const DrawnTriangle& drawn = picture.geometry->drawn[span.triangle];
+  if (drawn.light != kNone) {
+    add_light(picture, picture.scene->lights[drawn.light], span);
+    return;
+  }
+  const MapTexels texels = texels_of(picture, picture.scene->meshes[drawn.mesh]);
+  MapWalk walk(picture.lines.active(span.active), drawn, picture.grid, static_cast<std::int32_t>(row), span.x0,
+               span.x1);
+  for (MapPiece piece; walk.next(piece);) add_piece(texels, piece, picture.grid.shift, picture.sums);
+}
+
+/// Adds one row of samples to the sums of its pixels.
 void add_row(Picture& picture, std::uint32_t row) {
   picture.lines.begin_row(row);
-  for (VisibleSpan span; picture.lines.next(span);) {
-    if (!span.front) continue;
-    const DrawnTriangle& drawn = picture.geometry->drawn[span.triangle];
-    if (drawn.light != kNone) {
-      add_light(picture, picture.scene->lights[drawn.light], span);
-      continue;
+  for (VisibleSpan span; picture.lines.next(span);) add_span(picture, span, row);
+}
+
+/// The same with mirrors, glass, highlights and a background.
+void add_row_with_optics(Picture& picture, std::uint32_t row) {
+  picture.lines.begin_row(row);
+  std::int32_t end = 0;
+  for (VisibleSpan span; picture.lines.next(span); end = span.x1) {
+    picture.optics.add(kNone, end, span.x0, row, picture.sums);
+    if (picture.optics.takes(picture.geometry->drawn[span.triangle], span.front)) {
+      picture.optics.add(span.triangle, span.x0, span.x1, row, picture.sums);
+    } else {
+      add_span(picture, span, row);
     }
-    const MapTexels texels = texels_of(picture, picture.scene->meshes[drawn.mesh]);
-    MapWalk walk(picture.lines.active(span.active), drawn, picture.grid, static_cast<std::int32_t>(row), span.x0,
-                 span.x1);
-    for (MapPiece piece; walk.next(piece);) add_piece(texels, piece, picture.grid.shift, picture.sums);
   }
+  picture.optics.add(kNone, end, static_cast<std::int32_t>(picture.grid.columns), row, picture.sums);
 }
 
 /// The mean over each pixel's samples in sRGB; a grey scene's one channel three times.
@@ -127,13 +152,22 @@ Status draw_picture(const Scene& scene, const Geometry& geometry, const Illumina
   Picture picture;
   picture.scene = &scene;
   picture.geometry = &geometry;
+  if (PictureOptics::used(scene)) {
+    picture.with_optics = true;
+    picture.shown = scene;
+    picture.shown.display = PictureOptics::display_of(scene);
+    picture.black = scene.display.min_cd_m2;
+    picture.scene = &picture.shown;
+  }
   picture.grid = grid_of(*camera, geometry.lattice, options);
   if (!prepare(picture, maps, options, arena)) return arena.refused();
   const std::uint32_t rows = 1u << picture.grid.shift;
   for (std::uint32_t y = 0; y < options.height; ++y) {
     if (!progress.go_on(Stage::kPicture, y, options.height)) return interrupted();
     for (std::uint32_t& sum : picture.sums) sum = 0;
-    for (std::uint32_t row = y * rows; row < (y + 1) * rows; ++row) add_row(picture, row);
+    for (std::uint32_t row = y * rows; row < (y + 1) * rows; ++row) {
+      picture.with_optics ? add_row_with_optics(picture, row) : add_row(picture, row);
+    }
     finish_line(picture, options.width);
     if (sink.line != nullptr && !sink.line(sink.context, y, picture.rgb)) return interrupted();
   }
@@ -148,7 +182,8 @@ std::uint64_t picture_bytes(const Scene& scene, const Geometry& geometry, const 
   std::uint64_t filling = 0;
   for (const Mesh& mesh : scene.meshes) filling = mesh.sub_patch_count() > filling ? mesh.sub_patch_count() : filling;
   const std::uint64_t lines = rounded_up(kWhite + 1) + rounded_up(4 * std::uint64_t{options.width} * scene.channels) +
-                              rounded_up(3 * std::uint64_t{options.width}) + VisibleLines::bytes(scene, geometry, grid);
+                              rounded_up(3 * std::uint64_t{options.width}) + VisibleLines::bytes(scene, geometry, grid) +
+                              PictureOptics::bytes(scene, geometry);
   return rounded_up(2 * std::uint64_t{scene.sub_patch_count} * scene.channels) +
          (rounded_up(filling) > lines ? rounded_up(filling) : lines);
 }

@@ -107,6 +107,12 @@ void decide_channels(Scene& scene) {
   for (const Light& light : scene.lights) {
     if (!light.colour.grey()) scene.channels = 3;
   }
+  for (const Optics& optics : scene.optics) {
+    if (!optics.reflect.grey() || !optics.transmit.grey()) scene.channels = 3;
+  }
+  for (const Background& seen : scene.background) {
+    if (!seen.zenith.grey() || !seen.horizon.grey() || !seen.ground.grey()) scene.channels = 3;
+  }
 }
 
 }  // namespace shodo

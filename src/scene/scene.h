@@ -21,6 +21,24 @@ struct Material {
   Rgb diffuse;  // reflectance rho, 0 .. 0.9999
 };
 
+/// What a material does besides reflecting diffusely (doc/optics.md); only materials that do any of it have one.
+struct Optics {
+  std::uint32_t material = 0;
+  Rgb reflect;                 // the mirror's part, on the front
+  Rgb transmit;                // what goes straight through, both ways; above 0: a pane, which blocks nothing
+  double highlight = 0;        // reflectance of the gloss at normal incidence
+  double highlight_exponent = 1;
+
+  bool mirrors() const { return reflect.c[0] > 0 || reflect.c[1] > 0 || reflect.c[2] > 0; }
+  bool transmits() const { return transmit.c[0] > 0 || transmit.c[1] > 0 || transmit.c[2] > 0; }
+};
+
+/// What is seen where nothing stands: luminance by the direction's sine s above the horizon, cd/m2.
+struct Background {
+  Rgb zenith, horizon, ground;  // horizon + s^2 (zenith - horizon) above, ground below
+  Vec3 up{0, 1, 0};             // unit
+};
+
 /// One of the two sets of flags of paper 3.1 as a scene file gives them: -1 cleared, +1 set, 0 not given.
 struct GivenFlags {
   std::int8_t blocks = 0;
@@ -119,10 +137,24 @@ struct Scene {
   std::span<Light> lights;  // as an object for flags: index objects.size() + light
   std::span<Camera> cameras;
   std::span<Plane> planes;
+  std::span<Optics> optics;          // ascending material; mostly none
+  std::span<Background> background;  // one or none
   std::uint32_t patch_count = 0;
   std::uint32_t sub_patch_count = 0;
   std::uint32_t plane_sub_patch_count = 0;
   std::uint32_t polygons_dropped = 0;  // faces without area that the file has
+
+  /// Null: the material only reflects diffusely.
+  const Optics* optics_of(std::uint32_t material) const {
+    for (const Optics& found : optics) {
+      if (found.material == material) return &found;
+    }
+    return nullptr;
+  }
+  bool transmits(std::uint32_t material) const {
+    const Optics* const found = optics_of(material);
+    return found != nullptr && found->transmits();
+  }
 
   double largest_half_extent() const {
     const double xy = half_extent.x > half_extent.y ? half_extent.x : half_extent.y;

@@ -1,6 +1,7 @@
 // The loop over the statements, and those about the scene as a whole: shodo, unit, display, camera, include, material.
 #include "scene/statements.h"
 
+#include "scene/optics_statements.h"
 #include "scene/values.h"
 
 namespace shodo {
@@ -13,9 +14,10 @@ struct Statement {
 };
 
 constexpr Statement kStatements[] = {
-    {"camera", read_camera}, {"display", read_display},   {"grid", read_grid}, {"include", read_include},
-    {"light", read_light},   {"material", read_material}, {"obj", read_obj},   {"object", read_object},
-    {"plane", read_plane},   {"quad", read_quad},         {"sub", read_sub},   {"tri", read_tri},
+    {"background", read_background}, {"camera", read_camera}, {"display", read_display},   {"grid", read_grid},
+    {"include", read_include},       {"light", read_light},   {"material", read_material}, {"obj", read_obj},
+    {"object", read_object},         {"plane", read_plane},   {"quad", read_quad},         {"sub", read_sub},
+    {"tri", read_tri},
     {"unit", read_unit},
 };
 
@@ -90,17 +92,30 @@ constexpr Key<Camera> kCameraKeys[] = {{"eye", kAlways, kAlways, read_eye},
 // 2^-40 of a radian moves a picture by less than 10^-8 of a pixel.
 constexpr double kParallel = 0x1p-40;
 
-bool read_diffuse(SceneReading& reading, Material& material) {
-  return read_grey_or_colour(reading.words, {"diffuse"}, {0, kLargestReflectance}, material.diffuse);
+/// A material as its statement is read.
+struct MaterialWords {
+  Material material;
+  Optics optics;
+};
+
+bool read_diffuse(SceneReading& reading, MaterialWords& words) {
+  return read_grey_or_colour(reading.words, {"diffuse"}, {0, kLargestReflectance}, words.material.diffuse);
 }
+bool read_reflect(SceneReading& reading, MaterialWords& words) {
+  return read_grey_or_colour(reading.words, {"reflect"}, {0, kLargestReflectance}, words.optics.reflect);
+}
+bool read_transmit(SceneReading& reading, MaterialWords& words) {
+  return read_grey_or_colour(reading.words, {"transmit"}, {0, kLargestReflectance}, words.optics.transmit);
+}
+bool read_highlight(SceneReading& reading, MaterialWords& words) { return read_highlight(reading.words, words.optics); }
 
-bool read_later(SceneReading& reading, Material&) { return not_supported_yet(reading, reading.key); }
+bool read_later(SceneReading& reading, MaterialWords&) { return not_supported_yet(reading, reading.key); }
 
-constexpr Key<Material> kMaterialKeys[] = {{"diffuse", kAlways, kAlways, read_diffuse},
-                                           {"texture", kAlways, 0, read_later},
-                                           {"reflect", kAlways, 0, read_later},
-                                           {"transmit", kAlways, 0, read_later},
-                                           {"highlight", kAlways, 0, read_later}};
+constexpr Key<MaterialWords> kMaterialKeys[] = {{"diffuse", kAlways, kAlways, read_diffuse},
+                                                {"texture", kAlways, 0, read_later},
+                                                {"reflect", kAlways, 0, read_reflect},
+                                                {"transmit", kAlways, 0, read_transmit},
+                                                {"highlight", kAlways, 0, read_highlight}};
 
 }  // namespace
 
@@ -216,14 +231,17 @@ bool read_include(SceneReading& reading) {
   return true;
 }
 
-/// material NAME diffuse RHO | R G B
+/// material NAME diffuse RHO | R G B, and more: texture, reflect, transmit, highlight
 bool read_material(SceneReading& reading) {
   Token name;
   if (!read_new_name(reading, "the name of a material", &SceneStore::find_material, name)) return false;
-  Material material;
-  if (!read_keys<Material>(reading, kMaterialKeys, kAlways, material)) return false;
-  material.name = reading.store.add_name(name.text);
-  reading.store.add(material);
+  MaterialWords words;
+  if (!read_keys<MaterialWords>(reading, kMaterialKeys, kAlways, words)) return false;
+  if (!keep_energy(reading, name, words.material, words.optics)) return false;
+  words.optics.material = static_cast<std::uint32_t>(reading.store.counts().materials);
+  words.material.name = reading.store.add_name(name.text);
+  reading.store.add(words.material);
+  if (does_anything(words.optics)) reading.store.add(words.optics);
   return true;
 }
 

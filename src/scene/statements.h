@@ -34,6 +34,7 @@ struct SceneReading {
   bool started = false;
   bool unit_given = false;
   bool display_given = false;
+  bool background_given = false;
   std::uint32_t sub_u = 0, sub_v = 0;  // `sub` of the object that the next mesh belongs to; 0: not given
 };
 
@@ -50,6 +51,8 @@ bool read_display(SceneReading& reading);
 bool read_camera(SceneReading& reading);
 bool read_include(SceneReading& reading);
 bool read_material(SceneReading& reading);
+// optics_statements.cpp
+bool read_background(SceneReading& reading);
 // mesh_statements.cpp
 bool read_object(SceneReading& reading);
 bool read_quad(SceneReading& reading);

@@ -10,6 +10,7 @@
 #include "scene/scene.h"
 #include "shodo/statistics.h"
 #include "shodo/status.h"
+#include "visibility/lattice_box.h"
 
 namespace shodo {
 
@@ -43,13 +44,28 @@ struct PolygonTriangles {
 
 /// Samples, moved in front of their surface, stand less than so many steps off their points, in each coordinate.
 inline constexpr std::int32_t kMostMoved = 24;
+/// A polygon that light passes (visibility/panes.h): its triangles stand with all others but block nothing.
+struct Pane {
+  LatticeBox box;
+  std::uint32_t first = 0, count = 0;
+  Rgb transmit;
+};
 
 struct Geometry {
+  /// Whether a polygon blocks nothing.
+  bool is_pane(const PolygonTriangles& polygon) const {
+    for (const Pane& pane : panes) {
+      if (pane.first == polygon.first && polygon.count > 0) return true;
+    }
+    return false;
+  }
+
   Lattice lattice;
   std::span<Triangle> triangles;      // file order: objects' meshes ascending, then area lights; open lights have none
   std::span<PolygonTriangles> cells;  // per cell of each mesh: Geometry::first_cell[mesh] + cell
   std::span<std::uint32_t> first_cell;          // per mesh
   std::span<PolygonTriangles> light_triangles;  // per light; none for all but area lights that block
+  std::span<Pane> panes;  // ascending triangles; mostly none
   // Meshes ascending, then area lights (open ones too); a spare block of the arena, so that what comes before the
   // picture may have the memory: place_drawn() then.
   std::span<DrawnTriangle> drawn;

@@ -176,6 +176,23 @@ Aim Intersector::narrow(const Aim& wide, const Ends& a, const Ends& b) {
               [&](std::span<const Triangle> triangles) { return misses_side(triangles, a.points, b.points); });
 }
 
+/// attempt(triangle) for all that block, ascending, until one says true.
+template <class Try>
+bool Intersector::any_triangle(Try attempt) const {
+  const std::uint32_t count = static_cast<std::uint32_t>(geometry_->triangles.size());
+  std::uint32_t k = 0;
+  for (const Pane& pane : geometry_->panes) {
+    for (; k < pane.first; ++k) {
+      if (attempt(k)) return true;
+    }
+    k += pane.count;
+  }
+  for (; k < count; ++k) {
+    if (attempt(k)) return true;
+  }
+  return false;
+}
+
 /// Flags off: file order. Else the aim's order, in which a blocker comes to the front. From p along d.
 template <class Blocks>
 bool Intersector::any_blocks(Blocks blocks, const LatticePoint& p, const LatticeVector& d, const Link& link,
@@ -183,11 +200,10 @@ bool Intersector::any_blocks(Blocks blocks, const LatticePoint& p, const Lattice
   ++segments_[index(link.set)];
   std::uint64_t& tests = tests_[index(link.set)];
   if (aim.any_triangle) {
-    for (const Triangle& triangle : geometry_->triangles) {
+    return any_triangle([&](std::uint32_t k) {
       ++tests;
-      if (blocks(triangle)) return true;
-    }
-    return false;
+      return blocks(geometry_->triangles[k]);
+    });
   }
   LatticeBox around = box_of(p);
   around.include(p + d);
@@ -228,9 +244,10 @@ bool Intersector::ray_blocked(const LatticePoint& p, const LatticeVector& direct
 Hit Intersector::nearest(const LatticePoint& p, const LatticeVector& direction) const {
   Nearest best;
   if (!blockers_.built()) {
-    for (std::uint32_t k = 0; k < geometry_->triangles.size(); ++k) {
+    any_triangle([&](std::uint32_t k) {
       best.offer(geometry_->triangles[k], k, p, direction);
-    }
+      return false;
+    });
     return best.hit;
   }
   blockers_.visit(Shaft::along(box_of(p), direction),

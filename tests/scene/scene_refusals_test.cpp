@@ -51,7 +51,7 @@ TEST(SceneRefusals, TheVersionStandsFirstAndOnce) {
 
 TEST(SceneRefusals, UnknownStatements) {
   expect_refused(after_start("foo 1 2", 1,
-                             "expected a statement (camera, display, grid, include, light, material, obj, "
+                             "expected a statement (background, camera, display, grid, include, light, material, obj, "
                              "object, plane, quad, sub, tri, unit), found 'foo'"));
   expect_refused(after_start("  Quad", 3, "found 'Quad'"));
   expect_refused(after_start("\t\tquads", 3, "found 'quads'"));
@@ -155,9 +155,6 @@ TEST(SceneRefusals, Materials) {
 
 TEST(SceneRefusals, WhatIsStillToCome) {
   expect_refused(after_start("material n diffuse 0.5 texture oak.ppm", 24, "'texture' is not supported yet"));
-  expect_refused(after_start("material n diffuse 0.5 reflect 0.1", 24, "'reflect' is not supported yet"));
-  expect_refused(after_start("material n diffuse 0.5 transmit 0.1", 24, "'transmit' is not supported yet"));
-  expect_refused(after_start("material n diffuse 0.5 highlight 0.1 3", 24, "'highlight' is not supported yet"));
   expect_refused(after_start("obj chair.obj", 1, "'obj' is not supported yet"));
   expect_refused(
       after_start("light l point at 0 0 0 towards 0 -1 0 ies a.ies turn 90", 39, "'ies' is not supported yet"));
