@@ -1,6 +1,7 @@
 #include "ambient/matrix.h"
 
 #include "ambient/exchange_row.h"
+#include "base/features.h"
 
 namespace shodo {
 
@@ -59,7 +60,7 @@ LiveEnds ends_of(const Matrix& matrix, std::uint32_t node) {
 }
 
 /// Adds row i's entries to the sums of the rows after it, to its own in `sums`, and to the coarse matrix.
-template <bool kDoubles>
+template <RowFormat kFormat>
 void spread_row(FirstPass& pass, std::uint32_t i, const MeshWalk& at_i, const std::uint16_t* row, UpperSums& sums) {
   Matrix& matrix = pass.matrix;
   const Surfaces& surfaces = matrix.surfaces;
@@ -69,7 +70,7 @@ void spread_row(FirstPass& pass, std::uint32_t i, const MeshWalk& at_i, const st
   const LiveEnds ends_i = ends_of(matrix, i);
   MeshWalk at_j = at_i;
   std::uint32_t group_j = group_i;
-  for (RowReader<kDoubles> entry(row, i); entry.next();) {
+  for (RowReader<kFormat> entry(row, i, matrix.doubles()); entry.next();) {
     const std::uint32_t j = entry.column();
     if (at_j.go_to(j)) group_j = matrix.coarse.group_of_mesh(at_j.place());
     const double v = entry.value();
@@ -172,7 +173,13 @@ UpperSums add_rows(FirstPass& pass, std::uint32_t i, const MeshWalk& at_i, RowCu
       matrix.stores[g].keep(made);
       row = made.data();
     }
-    matrix.doubles() ? spread_row<true>(pass, i, at_i, row, sums) : spread_row<false>(pass, i, at_i, row, sums);
+    if constexpr (features::kSmallCode) {
+      spread_row<RowFormat::kEither>(pass, i, at_i, row, sums);
+    } else if (matrix.doubles()) {
+      spread_row<RowFormat::kDoubles>(pass, i, at_i, row, sums);
+    } else {
+      spread_row<RowFormat::kShort>(pass, i, at_i, row, sums);
+    }
   }
   return sums;
 }

@@ -19,37 +19,43 @@ struct GivenCounts {
 
 constexpr std::uint32_t kQuad = 1, kTri = 2, kGrid = 4;
 
-bool read_patches(SceneReading& reading, GivenCounts& counts) {
+bool read_patches(SceneReading& reading) {
+  GivenCounts& counts = value_of<GivenCounts>(reading);
   return read_count(reading.words, {"patches along u"}, 1, kMostPieces, counts.nu) &&
          read_count(reading.words, {"patches along v"}, 1, kMostPieces, counts.nv);
 }
 
-bool read_subs(SceneReading& reading, GivenCounts& counts) {
+bool read_subs(SceneReading& reading) {
+  GivenCounts& counts = value_of<GivenCounts>(reading);
   return read_count(reading.words, {"sub-patches along u"}, 1, kMostPieces, counts.su) &&
          read_count(reading.words, {"sub-patches along v"}, 1, kMostPieces, counts.sv);
 }
 
-bool read_tri_patches(SceneReading& reading, GivenCounts& counts) {
+bool read_tri_patches(SceneReading& reading) {
+  GivenCounts& counts = value_of<GivenCounts>(reading);
   const bool read = read_count(reading.words, {"patches along an edge"}, 1, kMostPieces, counts.nu);
   counts.nv = counts.nu;
   return read;
 }
 
-bool read_tri_subs(SceneReading& reading, GivenCounts& counts) {
+bool read_tri_subs(SceneReading& reading) {
+  GivenCounts& counts = value_of<GivenCounts>(reading);
   const bool read = read_count(reading.words, {"sub-patches along an edge"}, 1, kMostPieces, counts.su);
   counts.sv = counts.su;
   return read;
 }
 
-constexpr Key<GivenCounts> kCountKeys[] = {{"patches", kQuad, 0, read_patches},
-                                           {"sub", kQuad | kGrid, 0, read_subs},
-                                           {"patches", kTri, 0, read_tri_patches},
-                                           {"sub", kTri, 0, read_tri_subs}};
+constexpr Key kCountKeys[] = {{"patches", kQuad, 0, read_patches},
+                              {"sub", kQuad | kGrid, 0, read_subs},
+                              {"patches", kTri, 0, read_tri_patches},
+                              {"sub", kTri, 0, read_tri_subs}};
 
-bool read_direct_flags(SceneReading& reading, Object& object) { return read_flags(reading, object.direct); }
-bool read_ambient_flags(SceneReading& reading, Object& object) { return read_flags(reading, object.ambient); }
+bool read_direct_flags(SceneReading& reading) {
+  return read_flags(reading, value_of<Object>(reading).direct);
+}
+bool read_ambient_flags(SceneReading& reading) { return read_flags(reading, value_of<Object>(reading).ambient); }
 
-constexpr Key<Object> kObjectKeys[] = {{"direct", 1, 0, read_direct_flags}, {"ambient", 1, 0, read_ambient_flags}};
+constexpr Key kObjectKeys[] = {{"direct", 1, 0, read_direct_flags}, {"ambient", 1, 0, read_ambient_flags}};
 
 std::uint32_t larger(std::uint32_t a, std::uint32_t b) { return a > b ? a : b; }
 
@@ -156,7 +162,7 @@ bool read_object(SceneReading& reading) {
   Token name;
   if (!read_new_name(reading, "the name of an object", &SceneStore::find_object, name)) return false;
   Object object;
-  if (!read_keys<Object>(reading, kObjectKeys, 1, object)) return false;
+  if (!read_keys(reading, kObjectKeys, 1, &object)) return false;
   object.name = reading.store.add_name(name.text);
   object.first_mesh = static_cast<std::uint32_t>(reading.store.counts().meshes);
   reading.store.add(object);
@@ -170,7 +176,7 @@ bool read_quad(SceneReading& reading) {
   Vec3 corner[4];
   GivenCounts given;
   if (!begin_mesh(reading, mesh) || !read_corners(reading, corner, 4)) return false;
-  if (!read_keys<GivenCounts>(reading, kCountKeys, kQuad, given)) return false;
+  if (!read_keys(reading, kCountKeys, kQuad, &given)) return false;
   Vec3 different[4];
   std::uint32_t count = 0;
   for (std::uint32_t k = 0; k < 4; ++k) {
@@ -188,7 +194,7 @@ bool read_tri(SceneReading& reading) {
   Vec3 corner[3];
   GivenCounts given;
   if (!begin_mesh(reading, mesh) || !read_corners(reading, corner, 3)) return false;
-  if (!read_keys<GivenCounts>(reading, kCountKeys, kTri, given)) return false;
+  if (!read_keys(reading, kCountKeys, kTri, &given)) return false;
   return add_triangle(reading, mesh, corner, given);
 }
 
@@ -215,7 +221,7 @@ bool read_grid(SceneReading& reading) {
   }
   mesh.wraps_u = reading.store.storing() && wraps(reading.store, mesh);
   GivenCounts given;
-  return read_keys<GivenCounts>(reading, kCountKeys, kGrid, given) && add_mesh(reading, mesh, given);
+  return read_keys(reading, kCountKeys, kGrid, &given) && add_mesh(reading, mesh, given);
 }
 
 bool read_obj(SceneReading& reading) { return not_supported_yet(reading, reading.statement); }

@@ -65,6 +65,18 @@ bool read_statement(SceneReading& reading) {
   return reading.include.kind != TokenKind::kWord || words.enter(reading.include);
 }
 
+/// "expected <the keys that may stand here> or the end of the line"; always false.
+bool expected_key(Words& words, std::span<const Key> keys, std::uint32_t kind) {
+  TextBuilder message = words.mistake(words.peek());
+  message.add("expected ");
+  for (const Key& key : keys) {
+    if ((key.kinds & kind) != 0) message.add(key.word).add(", ");
+  }
+  message.add("or the end of the line");
+  add_found(message, words.peek());
+  return false;
+}
+
 struct Unit {
   std::string_view word;
   double metres;
@@ -74,34 +86,55 @@ constexpr Unit kUnits[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}
 
 constexpr std::uint32_t kAlways = 1;
 
-bool read_eye(SceneReading& reading, Camera& camera) { return read_point(reading.words, {"eye"}, camera.eye); }
-bool read_look(SceneReading& reading, Camera& camera) { return read_point(reading.words, {"look"}, camera.look); }
-bool read_up(SceneReading& reading, Camera& camera) { return read_direction(reading.words, {"up"}, camera.up); }
-bool read_fov(SceneReading& reading, Camera& camera) {
-  return read_number(reading.words, {"fov"}, {1, 170}, camera.fov_degrees);
+bool read_eye(SceneReading& reading) {
+  return read_point(reading.words, {"eye"}, value_of<Camera>(reading).eye);
+}
+bool read_look(SceneReading& reading) { return read_point(reading.words, {"look"}, value_of<Camera>(reading).look); }
+bool read_up(SceneReading& reading) { return read_direction(reading.words, {"up"}, value_of<Camera>(reading).up); }
+bool read_fov(SceneReading& reading) {
+  return read_number(reading.words, {"fov"}, {1, 170}, value_of<Camera>(reading).fov_degrees);
 }
 
-constexpr Key<Camera> kCameraKeys[] = {{"eye", kAlways, kAlways, read_eye},
-                                       {"look", kAlways, kAlways, read_look},
-                                       {"up", kAlways, kAlways, read_up},
-                                       {"fov", kAlways, kAlways, read_fov}};
+constexpr Key kCameraKeys[] = {{"eye", kAlways, kAlways, read_eye},
+                               {"look", kAlways, kAlways, read_look},
+                               {"up", kAlways, kAlways, read_up},
+                               {"fov", kAlways, kAlways, read_fov}};
 
 // 2^-40 of a radian moves a picture by less than 10^-8 of a pixel.
 constexpr double kParallel = 0x1p-40;
 
-bool read_diffuse(SceneReading& reading, Material& material) {
-  return read_grey_or_colour(reading.words, {"diffuse"}, {0, kLargestReflectance}, material.diffuse);
+bool read_diffuse(SceneReading& reading) {
+  return read_grey_or_colour(reading.words, {"diffuse"}, {0, kLargestReflectance}, value_of<Material>(reading).diffuse);
 }
 
-bool read_later(SceneReading& reading, Material&) { return not_supported_yet(reading, reading.key); }
+bool read_later(SceneReading& reading) { return not_supported_yet(reading, reading.key); }
 
-constexpr Key<Material> kMaterialKeys[] = {{"diffuse", kAlways, kAlways, read_diffuse},
-                                           {"texture", kAlways, 0, read_later},
-                                           {"reflect", kAlways, 0, read_later},
-                                           {"transmit", kAlways, 0, read_later},
-                                           {"highlight", kAlways, 0, read_later}};
+constexpr Key kMaterialKeys[] = {{"diffuse", kAlways, kAlways, read_diffuse},
+                                 {"texture", kAlways, 0, read_later},
+                                 {"reflect", kAlways, 0, read_later},
+                                 {"transmit", kAlways, 0, read_later},
+                                 {"highlight", kAlways, 0, read_later}};
 
 }  // namespace
+
+bool read_keys(SceneReading& reading, std::span<const Key> keys, std::uint32_t kind, void* value) {
+  Words& words = reading.words;
+  std::uint32_t seen = 0;
+  reading.value = value;
+  while (words.at_word()) {
+    std::uint32_t k = 0;
+    while (k < keys.size() && ((keys[k].kinds & kind) == 0 || keys[k].word != words.peek().text)) ++k;
+    if (k == keys.size()) return expected_key(words, keys, kind);
+    if ((seen >> k & 1) != 0) return words.expected("this word once only");
+    seen |= std::uint32_t{1} << k;
+    reading.key = words.take();
+    if (!keys[k].read(reading)) return false;
+  }
+  for (std::uint32_t k = 0; k < keys.size(); ++k) {
+    if ((keys[k].required & kind) != 0 && (seen >> k & 1) == 0) return words.expected(keys[k].word);
+  }
+  return true;
+}
 
 bool read_statements(SceneReading& reading) {
   Words& words = reading.words;
@@ -185,7 +218,7 @@ bool read_camera(SceneReading& reading) {
   Token name;
   if (!read_new_name(reading, "the name of a camera", &SceneStore::find_camera, name)) return false;
   Camera camera;
-  if (!read_keys<Camera>(reading, kCameraKeys, kAlways, camera)) return false;
+  if (!read_keys(reading, kCameraKeys, kAlways, &camera)) return false;
   if (camera.look == camera.eye) {
     words.mistake(name).add("expected a camera that looks at another point than its eye");
     return false;
@@ -215,7 +248,7 @@ bool read_material(SceneReading& reading) {
   Token name;
   if (!read_new_name(reading, "the name of a material", &SceneStore::find_material, name)) return false;
   Material material;
-  if (!read_keys<Material>(reading, kMaterialKeys, kAlways, material)) return false;
+  if (!read_keys(reading, kMaterialKeys, kAlways, &material)) return false;
   material.name = reading.store.add_name(name.text);
   reading.store.add(material);
   return true;
