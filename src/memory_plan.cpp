@@ -37,7 +37,7 @@ void plan_scene(const Model& model, MemoryPlan& plan) {
 void plan_light(const Model& model, MemoryPlan& plan) {
   const Scene& scene = model.scene;
   const Options& options = model.options;
-  plan.add(PlanPart::kFlags, options.flags == FlagMode::kOff ? 0 : FlagTables::bytes(scene), kLight);
+  plan.add(PlanPart::kFlags, features::aims(options.flags) ? FlagTables::bytes(scene) : 0, kLight);
   plan.add(PlanPart::kDirectLight, direct_patch_bytes(scene), kLight);
   plan.add(PlanPart::kBlockers, Intersector::bytes(model.geometry, options.flags),
            kDirect | kAgain | (scene.patch_count > 0 ? kAmbient : 0));
@@ -133,7 +133,7 @@ MemoryPlan plan_memory(const Model& model, bool picture) {
 bool keeps_geometry(const Model& model) {
   const Scene& scene = model.scene;
   const Options& options = model.options;
-  const std::uint64_t flags = options.flags == FlagMode::kOff ? 0 : FlagTables::bytes(scene);
+  const std::uint64_t flags = features::aims(options.flags) ? FlagTables::bytes(scene) : 0;
   const std::uint64_t blockers = Intersector::bytes(model.geometry, options.flags);
   const std::uint64_t patches = model.after_patches + flags + direct_patch_bytes(scene);
   const std::uint64_t solved = patches + ambient_result_bytes(scene) + direct_sub_patch_bytes(scene);

@@ -182,7 +182,7 @@ Status check_count_options(const Options& options) {
   const bool refine = options.refine > 0 && options.refine <= kLargestNumber;
   if (refine && usable(options.patch_size) && usable(options.sub_patch_size)) return status;
   status.code = StatusCode::kUsage;
-  TextBuilder(status.message, sizeof status.message)
+  MessageText(status.message, sizeof status.message)
       .add("expected --patch and --sub-patch from 0 and --refine above 0, found ")
       .add(options.patch_size).add(", ").add(options.sub_patch_size).add(" and ").add(options.refine);
   return status;
@@ -197,7 +197,7 @@ bool decide_counts(Scene& scene, const Options& options, Status& status, Wanted&
     if (mesh.nu <= kMostPieces && mesh.nv <= kMostPieces) decide_sub_patches(scene, options, mesh);
     if (!fits(mesh, patches, sub_patches)) {
       status.code = StatusCode::kScene;
-      TextBuilder(status.message, sizeof status.message)
+      MessageText(status.message, sizeof status.message)
           .add("expected at most 65535 pieces along an edge and 2^32 - 2 sub-patches in all, found ")
           .add(mesh.nu).add(" x ").add(mesh.nv).add(" patches of ").add(mesh.su).add(" x ").add(mesh.sv)
           .add(" sub-patches (65536 stands for more)");

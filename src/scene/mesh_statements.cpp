@@ -71,7 +71,7 @@ bool begin_mesh(SceneReading& reading, Mesh& mesh) {
 
 bool sub_suits_triangle(const SceneReading& reading) {
   if (reading.sub_u == reading.sub_v) return true;
-  TextBuilder message = reading.words.mistake(reading.statement);
+  MessageText message = reading.words.mistake(reading.statement);
   message.add("expected equal counts in the 'sub' of an object with a triangle, found ");
   message.add(reading.sub_u).add(' ').add(reading.sub_v);
   return false;
@@ -91,6 +91,11 @@ bool add_mesh(SceneReading& reading, Mesh& mesh, const GivenCounts& given) {
   reading.store.add(mesh);
   if (reading.store.storing()) ++reading.store.scene().objects[mesh.object].mesh_count;
   return true;
+}
+
+bool only_convex_quads(SceneReading& reading) {
+  reading.words.mistake(reading.statement).add("this library is built without quads that are not convex");
+  return false;
 }
 
 bool add_triangle(SceneReading& reading, Mesh& mesh, const Vec3* corner, const GivenCounts& given) {
@@ -113,6 +118,7 @@ bool add_quad(SceneReading& reading, Mesh& mesh, const Vec3* corner, const Given
     ++reading.store.scene().polygons_dropped;
     return true;
   }
+  if (!features::kMeshes && shape != QuadShape::kConvex) return only_convex_quads(reading);
   mesh.kind = MeshKind::kQuad;
   mesh.cut = shape != QuadShape::kConvex;
   mesh.concave = shape == QuadShape::kCut13;
@@ -135,7 +141,7 @@ bool check_cell(SceneReading& reading, Mesh& mesh, std::uint32_t c, std::uint32_
                           store.vertex(last - columns)};
   const QuadShape shape = quad_shape(corner);
   if (shape == QuadShape::kCrossing) {
-    TextBuilder message = reading.words.mistake(at);
+    MessageText message = reading.words.mistake(at);
     message.add("expected cells that do not cross themselves or fold over, found the cell of column ");
     message.add(c).add(", row ").add(r);
     return false;
@@ -182,6 +188,7 @@ bool read_quad(SceneReading& reading) {
   for (std::uint32_t k = 0; k < 4; ++k) {
     if (corner[k] != corner[(k + 3) % 4]) different[count++] = corner[k];
   }
+  if (!features::kMeshes && count == 3) return only_convex_quads(reading);
   if (count != 3) return add_quad(reading, mesh, corner, given);
   given.nu = given.nv = larger(given.nu, given.nv);
   given.su = given.sv = larger(given.su, given.sv);
@@ -190,6 +197,7 @@ bool read_quad(SceneReading& reading) {
 
 /// tri MATERIAL, 3 corners [patches N] [sub N]
 bool read_tri(SceneReading& reading) {
+  if constexpr (!features::kMeshes) return left_out(reading, reading.statement);
   Mesh mesh;
   Vec3 corner[3];
   GivenCounts given;
@@ -200,6 +208,7 @@ bool read_tri(SceneReading& reading) {
 
 /// grid MATERIAL COLUMNS ROWS, the vertices row by row [sub SU SV]
 bool read_grid(SceneReading& reading) {
+  if constexpr (!features::kMeshes) return left_out(reading, reading.statement);
   Words& words = reading.words;
   Mesh mesh;
   mesh.kind = MeshKind::kGrid;

@@ -19,7 +19,7 @@ constexpr Statement kStatements[] = {
 };
 
 bool expected_statement(Words& words) {
-  TextBuilder message = words.mistake(words.peek());
+  MessageText message = words.mistake(words.peek());
   message.add("expected a statement (");
   std::string_view comma;
   for (const Statement& statement : kStatements) {
@@ -62,12 +62,12 @@ bool read_statement(SceneReading& reading) {
     if (!statement->read(reading)) return false;
   }
   if (!words.at_end()) return words.expected("the end of the line");
-  return reading.include.kind != TokenKind::kWord || words.enter(reading.include);
+  return !features::kIncludes || reading.include.kind != TokenKind::kWord || words.enter(reading.include);
 }
 
 /// "expected <the keys that may stand here> or the end of the line"; always false.
 bool expected_key(Words& words, std::span<const Key> keys, std::uint32_t kind) {
-  TextBuilder message = words.mistake(words.peek());
+  MessageText message = words.mistake(words.peek());
   message.add("expected ");
   for (const Key& key : keys) {
     if ((key.kinds & kind) != 0) message.add(key.word).add(", ");
@@ -166,7 +166,7 @@ bool read_reference(SceneReading& reading, std::string_view what, FindName find,
   if (index != kNone) return true;
   index = 0;
   if (!reading.store.storing()) return true;
-  TextBuilder message = reading.words.mistake(name);
+  MessageText message = reading.words.mistake(name);
   message.add("expected ").add(what).add(" defined above");
   add_found(message, name);
   return false;
@@ -175,9 +175,14 @@ bool read_reference(SceneReading& reading, std::string_view what, FindName find,
 bool read_new_name(SceneReading& reading, std::string_view what, FindName find, Token& name) {
   if (!read_name(reading.words, what, name)) return false;
   if ((reading.store.*find)(name.text) == kNone) return true;
-  TextBuilder message = reading.words.mistake(name);
+  MessageText message = reading.words.mistake(name);
   message.add("expected ").add(what).add(" not used before");
   add_found(message, name);
+  return false;
+}
+
+bool left_out(SceneReading& reading, const Token& at) {
+  reading.words.mistake(at).add("this library is built without '").add(at.text).add('\'');
   return false;
 }
 
@@ -238,6 +243,7 @@ bool read_camera(SceneReading& reading) {
 
 /// include PATH; the file is entered when the statement has ended.
 bool read_include(SceneReading& reading) {
+  if constexpr (!features::kIncludes) return left_out(reading, reading.statement);
   if (!reading.words.at_word()) return reading.words.expected("the path of a file");
   reading.include = reading.words.take();
   return true;

@@ -86,6 +86,8 @@ bool read_reference(SceneReading& reading, std::string_view what, FindName find,
 bool read_new_name(SceneReading& reading, std::string_view what, FindName find, Token& name);
 /// One or more of +blocks, -blocks, +shadowed_towards and so on, each once.
 bool read_flags(SceneReading& reading, GivenFlags& flags);
+/// "this library is built without <the word>"; always false.
+bool left_out(SceneReading& reading, const Token& at);
 /// "<the word> is not supported yet"; always false.
 bool not_supported_yet(SceneReading& reading, const Token& at);
 
