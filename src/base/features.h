@@ -60,6 +60,9 @@ inline constexpr bool kSmallCode = true;
 inline constexpr bool kSmallCode = false;
 #endif
 
+/// Nothing is left out.
+inline constexpr bool kFull = kBlocks && kRules && kAims && kMeshes && kIncludes && kMessages;
+
 /// Nodes that hold others.
 inline constexpr bool kTrees = kBlocks || kRules;
 
