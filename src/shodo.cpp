@@ -29,7 +29,7 @@ Status too_small(std::uint64_t needed, std::uint64_t given) {
   Status status;
   status.code = StatusCode::kMemory;
   status.bytes_needed = needed;
-  TextBuilder text(status.message, sizeof status.message);
+  MessageText text(status.message, sizeof status.message);
   text.add("the memory budget is too small: expected at least ").add(needed).add(" bytes, found ").add(given);
   return status;
 }
@@ -37,14 +37,30 @@ Status too_small(std::uint64_t needed, std::uint64_t given) {
 Status wrong_use(std::string_view what) {
   Status status;
   status.code = StatusCode::kUsage;
-  TextBuilder(status.message, sizeof status.message).add(what);
+  MessageText(status.message, sizeof status.message).add(what);
   return status;
 }
 
 Status interrupted() {
   Status status;
   status.code = StatusCode::kInterrupted;
-  TextBuilder(status.message, sizeof status.message).add("interrupted");
+  MessageText(status.message, sizeof status.message).add("interrupted");
+  return status;
+}
+
+/// What the options ask of a library that is built without it (base/features.h); null if nothing.
+const char* part_left_out(const Options& options) {
+  const Rules& rules = options.rules;
+  if (!features::kBlocks && rules.blocks) return "blocks";
+  if (!features::kRules && (rules.rule1 || rules.rule2 || rules.rule2_repeated || rules.rule3)) return "rules";
+  if (!features::kAims && options.flags == FlagMode::kScene) return "flags that a scene gives";
+  return nullptr;
+}
+
+Status left_out(const char* part) {
+  Status status;
+  status.code = StatusCode::kUsage;
+  TextBuilder(status.message, sizeof status.message).add("this library is built without ").add(part);
   return status;
 }
 
@@ -221,7 +237,7 @@ Status self_check() {
   const char* const fault = arithmetic_fault();
   if (fault == nullptr) return status;
   status.code = StatusCode::kFile;
-  TextBuilder text(status.message, sizeof status.message);
+  MessageText text(status.message, sizeof status.message);
   text.add("this machine's arithmetic would change pixels: expected ").add(fault).add(", found otherwise");
   return status;
 }
@@ -229,6 +245,7 @@ Status self_check() {
 Status load(std::string_view name, std::string_view text, const Reader& reader, const Options& options, void* memory,
             std::size_t bytes, Model*& model) {
   model = nullptr;
+  if (const char* part = part_left_out(options); part != nullptr) return left_out(part);
   if (const Status fit = self_check(); !fit.done()) return fit;
   const std::size_t skew = reinterpret_cast<std::uintptr_t>(memory) % alignof(Model);
   const std::size_t skip = skew == 0 ? 0 : alignof(Model) - skew;

@@ -44,13 +44,13 @@ LinkSeries odd_series(const Surfaces& s, const RowSide& side, std::uint32_t j) {
 }  // namespace
 
 std::uint64_t BlockTools::bytes(const Scene& scene, const Geometry& geometry, const Options& options) {
-  if (!options.rules.blocks) return 0;
+  if (!features::blocks(options.rules)) return 0;
   return LinkWorth::bytes(scene, options.rules) + Places::bytes(scene, options.rules) +
          Sight::bytes(geometry, options);
 }
 
 Status BlockTools::take(Arena& arena, const Surfaces& surfaces, const DirectLight& direct, const Options& options) {
-  if (!options.rules.blocks) return {};
+  if (!features::blocks(options.rules)) return {};
   Status status = worth.take(arena, surfaces, direct, options.rules);
   if (status.done()) status = places.take(arena, surfaces, options.rules);
   if (status.done()) status = sight.take(arena, *surfaces.geometry, options);

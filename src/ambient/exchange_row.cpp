@@ -81,7 +81,7 @@ void compute_row(const Surfaces& surfaces, const Sparsity& sparsity, LinkWalk& w
   if (!(surfaces.root_area[i] > 0)) return;
   NodeGeometry own;
   const RowSide side = row_side(surfaces, i, own);
-  if (options.rules.blocks) {
+  if (features::blocks(options.rules)) {
     BlockJudge judge(surfaces, options, tools, intersector);
     walk.visit(
         side, [&](const RowSide& from, std::uint32_t j) { return judge.judge(from, j); },

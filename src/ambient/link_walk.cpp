@@ -101,7 +101,7 @@ LinkWalk::Step LinkWalk::judge_rule3(std::uint32_t a, std::uint32_t b) const {
 }
 
 LinkWalk::Step LinkWalk::judge(std::uint32_t a, std::uint32_t b) const {
-  if (!surfaces_->is_block(a) && !surfaces_->is_block(b)) return Step::kLink;
+  if (!features::kRules || (!surfaces_->is_block(a) && !surfaces_->is_block(b))) return Step::kLink;
   return judge_rule3(a, b);
 }
 

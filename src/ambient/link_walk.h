@@ -78,7 +78,7 @@ class LinkWalk {
   template <class Judge, class Link>
   void expand(const RowSide& side, Judge&& judge, Link&& link) {
     const std::uint32_t a = side.position;
-    const bool top = levels_ == 0;
+    const bool top = !features::kTrees || levels_ == 0;
     const Level above = top ? Level{} : level_[levels_ - 1];
     if (surfaces_->is_block(a)) open_level(a);
     if (!top) {

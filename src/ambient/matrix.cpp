@@ -1,6 +1,7 @@
 #include "ambient/matrix.h"
 
 #include "ambient/exchange_row.h"
+#include "base/features.h"
 
 namespace shodo {
 
@@ -67,7 +68,7 @@ double solid_part(const Surfaces& surfaces, std::uint32_t place, std::uint32_t c
 }
 
 /// Adds row i's entries to the sums of the rows after it, to its own in `sums`, and to the coarse matrix.
-template <bool kDoubles>
+template <RowFormat kFormat>
 void spread_row(FirstPass& pass, std::uint32_t i, const MeshWalk& at_i, const std::uint16_t* row, UpperSums& sums) {
   Matrix& matrix = pass.matrix;
   const Surfaces& surfaces = matrix.surfaces;
@@ -80,7 +81,7 @@ void spread_row(FirstPass& pass, std::uint32_t i, const MeshWalk& at_i, const st
   const bool panes = pass.panes.any();
   const double solid_i = panes ? solid_part(surfaces, at_i.place(), pass.panes.channel()) : 1;
   double solid_j = solid_i;
-  for (RowReader<kDoubles> entry(row, i); entry.next();) {
+  for (RowReader<kFormat> entry(row, i, matrix.doubles()); entry.next();) {
     const std::uint32_t j = entry.column();
     if (at_j.go_to(j)) {
       group_j = matrix.coarse.group_of_mesh(at_j.place());
@@ -186,7 +187,13 @@ UpperSums add_rows(FirstPass& pass, std::uint32_t i, const MeshWalk& at_i, RowCu
       matrix.stores[g].keep(made);
       row = made.data();
     }
-    matrix.doubles() ? spread_row<true>(pass, i, at_i, row, sums) : spread_row<false>(pass, i, at_i, row, sums);
+    if constexpr (features::kSmallCode) {
+      spread_row<RowFormat::kEither>(pass, i, at_i, row, sums);
+    } else if (matrix.doubles()) {
+      spread_row<RowFormat::kDoubles>(pass, i, at_i, row, sums);
+    } else {
+      spread_row<RowFormat::kShort>(pass, i, at_i, row, sums);
+    }
   }
   return sums;
 }

@@ -119,7 +119,7 @@ void LeanShaft::add_lines(const LatticeBox& a, const LatticeBox& b, std::uint32_
 }
 
 std::uint64_t Sight::bytes(const Geometry& geometry, const Options& options) {
-  if (options.flags == FlagMode::kOff) return 0;
+  if (!features::aims(options.flags)) return 0;
   const std::uint32_t facets = facet_count(geometry);
   return 4 * std::uint64_t{kListWords} + (std::uint64_t{facets} + 7) / 8 * 8 + (2 * std::uint64_t{facets} + 7) / 8 * 8 +
          (sizeof(Cluster) * std::uint64_t{most_clusters(facets)} + 7) / 8 * 8;
@@ -128,7 +128,7 @@ std::uint64_t Sight::bytes(const Geometry& geometry, const Options& options) {
 Status Sight::take(Arena& arena, const Geometry& geometry, const Options& options) {
   geometry_ = &geometry;
   lists_ = false;
-  if (options.flags == FlagMode::kOff) return {};
+  if (!features::aims(options.flags)) return {};
   const std::uint32_t facets = facet_count(geometry);
   const bool taken = arena.take("blockers left to parts", kListWords, left_) &&
                      arena.take("blockers of a row", kListWords, row_) &&

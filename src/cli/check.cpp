@@ -83,7 +83,8 @@ std::string plan_text(const MemoryPlan& plan) {
       stages += plan.stage[k] != 0 && part.in(k) ? static_cast<char>('1' + k) : ' ';
     }
     text += "           " + right(grouped(part.bytes), 11) + "  " + stages + "  ";
-    text += part.name + std::string(": ") + part.formula + "\n";
+    const PartText what = plan_part_text(part.part);
+    text += what.name + std::string(": ") + what.formula + "\n";
   }
   return text;
 }

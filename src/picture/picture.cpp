@@ -20,7 +20,7 @@ const Camera* find_camera(const Scene& scene, std::string_view name) {
 Status no_camera(const Scene& scene, std::string_view name) {
   Status status;
   status.code = StatusCode::kUsage;
-  TextBuilder text(status.message, sizeof status.message);
+  MessageText text(status.message, sizeof status.message);
   if (scene.cameras.empty()) {
     text.add("expected a camera in the scene, found none");
   } else {

@@ -215,7 +215,7 @@ Status check_count_options(const Options& options) {
   const bool refine = options.refine > 0 && options.refine <= kLargestNumber;
   if (refine && usable(options.patch_size) && usable(options.sub_patch_size)) return status;
   status.code = StatusCode::kUsage;
-  TextBuilder(status.message, sizeof status.message)
+  MessageText(status.message, sizeof status.message)
       .add("expected --patch and --sub-patch from 0 and --refine above 0, found ")
       .add(options.patch_size).add(", ").add(options.sub_patch_size).add(" and ").add(options.refine);
   return status;

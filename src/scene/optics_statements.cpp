@@ -13,23 +13,23 @@ constexpr double kSumRounding = 0x1p-50;
 
 constexpr std::uint32_t kAlways = 1;
 
-bool read_zenith(SceneReading& reading, Background& background) {
-  return read_grey_or_colour(reading.words, {"zenith"}, kNotNegative, background.zenith);
+bool read_zenith(SceneReading& reading) {
+  return read_grey_or_colour(reading.words, {"zenith"}, kNotNegative, value_of<Background>(reading).zenith);
 }
-bool read_horizon(SceneReading& reading, Background& background) {
-  return read_grey_or_colour(reading.words, {"horizon"}, kNotNegative, background.horizon);
+bool read_horizon(SceneReading& reading) {
+  return read_grey_or_colour(reading.words, {"horizon"}, kNotNegative, value_of<Background>(reading).horizon);
 }
-bool read_ground(SceneReading& reading, Background& background) {
-  return read_grey_or_colour(reading.words, {"ground"}, kNotNegative, background.ground);
+bool read_ground(SceneReading& reading) {
+  return read_grey_or_colour(reading.words, {"ground"}, kNotNegative, value_of<Background>(reading).ground);
 }
-bool read_up(SceneReading& reading, Background& background) {
-  return read_direction(reading.words, {"up"}, background.up);
+bool read_up(SceneReading& reading) {
+  return read_direction(reading.words, {"up"}, value_of<Background>(reading).up);
 }
 
-constexpr Key<Background> kBackgroundKeys[] = {{"zenith", kAlways, kAlways, read_zenith},
-                                               {"horizon", kAlways, kAlways, read_horizon},
-                                               {"ground", kAlways, kAlways, read_ground},
-                                               {"up", kAlways, 0, read_up}};
+constexpr Key kBackgroundKeys[] = {{"zenith", kAlways, kAlways, read_zenith},
+                                   {"horizon", kAlways, kAlways, read_horizon},
+                                   {"ground", kAlways, kAlways, read_ground},
+                                   {"up", kAlways, 0, read_up}};
 
 }  // namespace
 
@@ -64,7 +64,7 @@ bool does_anything(const Optics& optics) { return optics.mirrors() || optics.tra
 bool read_background(SceneReading& reading) {
   if (reading.background_given) return reading.words.expected(reading.statement, "'background' once only");
   Background background;
-  if (!read_keys<Background>(reading, kBackgroundKeys, kAlways, background)) return false;
+  if (!read_keys(reading, kBackgroundKeys, kAlways, &background)) return false;
   reading.store.add(background);
   return reading.background_given = true;
 }

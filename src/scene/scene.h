@@ -10,6 +10,7 @@
 #include <span>
 #include <string_view>
 
+#include "base/features.h"
 #include "base/vector.h"
 
 namespace shodo {
@@ -61,9 +62,10 @@ enum class MeshKind : std::uint8_t { kQuad, kTriangle, kGrid };
 /// A quad is one cell, a grid (columns-1) x (rows-1); each cell carries patches_per_cell_u x _v patches. A triangle
 /// divides each edge by `nu` (== nv) and has nu^2 patches. Sub-patches: su x sv a patch, a triangle su^2.
 struct Mesh {
-  MeshKind kind = MeshKind::kQuad;
-  bool concave = false;           // quad only: cut from corner 1 to corner 3 (else the fixed diagonal 0 to 2)
-  bool cut = false;               // quad: not convex, on the diagonal that `concave` says; grid: some cell is so
+  features::FixedUnless<features::kMeshes, MeshKind, MeshKind::kQuad> kind = MeshKind::kQuad;
+  features::FixedUnless<features::kMeshes, bool, false> concave = false;  // quad only: cut from corner 1 to corner 3 (else the fixed diagonal 0 to 2)
+  features::FixedUnless<features::kMeshes, bool, false> cut = false;      // quad: not convex, on the diagonal that
+                                  // `concave` says; grid: some cell is so
   bool wraps_u = false;           // grid only: the last column of vertices is the first
   std::uint32_t object = 0;
   std::uint32_t material = 0;

@@ -37,7 +37,7 @@ bool SceneStore::begin_storing(Arena& arena, Status& status) {
   const Counts& c = counts_;
   if (c.materials + c.objects + c.meshes + c.vertices + c.lights + c.cameras + c.planes >= kNone) {
     status.code = StatusCode::kScene;
-    TextBuilder(status.message, sizeof status.message).add("expected fewer than 2^32 vertices, meshes and lights");
+    MessageText(status.message, sizeof status.message).add("expected fewer than 2^32 vertices, meshes and lights");
     return false;
   }
   const std::size_t bytes = block_bytes<Material>(counts_.materials) + block_bytes<Object>(counts_.objects) +

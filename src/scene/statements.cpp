@@ -22,7 +22,7 @@ constexpr Statement kStatements[] = {
 };
 
 bool expected_statement(Words& words) {
-  TextBuilder message = words.mistake(words.peek());
+  MessageText message = words.mistake(words.peek());
   message.add("expected a statement (");
   std::string_view comma;
   for (const Statement& statement : kStatements) {
@@ -65,7 +65,19 @@ bool read_statement(SceneReading& reading) {
     if (!statement->read(reading)) return false;
   }
   if (!words.at_end()) return words.expected("the end of the line");
-  return reading.include.kind != TokenKind::kWord || words.enter(reading.include);
+  return !features::kIncludes || reading.include.kind != TokenKind::kWord || words.enter(reading.include);
+}
+
+/// "expected <the keys that may stand here> or the end of the line"; always false.
+bool expected_key(Words& words, std::span<const Key> keys, std::uint32_t kind) {
+  MessageText message = words.mistake(words.peek());
+  message.add("expected ");
+  for (const Key& key : keys) {
+    if ((key.kinds & kind) != 0) message.add(key.word).add(", ");
+  }
+  message.add("or the end of the line");
+  add_found(message, words.peek());
+  return false;
 }
 
 struct Unit {
@@ -77,17 +89,19 @@ constexpr Unit kUnits[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}
 
 constexpr std::uint32_t kAlways = 1;
 
-bool read_eye(SceneReading& reading, Camera& camera) { return read_point(reading.words, {"eye"}, camera.eye); }
-bool read_look(SceneReading& reading, Camera& camera) { return read_point(reading.words, {"look"}, camera.look); }
-bool read_up(SceneReading& reading, Camera& camera) { return read_direction(reading.words, {"up"}, camera.up); }
-bool read_fov(SceneReading& reading, Camera& camera) {
-  return read_number(reading.words, {"fov"}, {1, 170}, camera.fov_degrees);
+bool read_eye(SceneReading& reading) {
+  return read_point(reading.words, {"eye"}, value_of<Camera>(reading).eye);
+}
+bool read_look(SceneReading& reading) { return read_point(reading.words, {"look"}, value_of<Camera>(reading).look); }
+bool read_up(SceneReading& reading) { return read_direction(reading.words, {"up"}, value_of<Camera>(reading).up); }
+bool read_fov(SceneReading& reading) {
+  return read_number(reading.words, {"fov"}, {1, 170}, value_of<Camera>(reading).fov_degrees);
 }
 
-constexpr Key<Camera> kCameraKeys[] = {{"eye", kAlways, kAlways, read_eye},
-                                       {"look", kAlways, kAlways, read_look},
-                                       {"up", kAlways, kAlways, read_up},
-                                       {"fov", kAlways, kAlways, read_fov}};
+constexpr Key kCameraKeys[] = {{"eye", kAlways, kAlways, read_eye},
+                               {"look", kAlways, kAlways, read_look},
+                               {"up", kAlways, kAlways, read_up},
+                               {"fov", kAlways, kAlways, read_fov}};
 
 // 2^-40 of a radian moves a picture by less than 10^-8 of a pixel.
 constexpr double kParallel = 0x1p-40;
@@ -98,26 +112,50 @@ struct MaterialWords {
   Optics optics;
 };
 
-bool read_diffuse(SceneReading& reading, MaterialWords& words) {
-  return read_grey_or_colour(reading.words, {"diffuse"}, {0, kLargestReflectance}, words.material.diffuse);
+bool read_diffuse(SceneReading& reading) {
+  return read_grey_or_colour(reading.words, {"diffuse"}, {0, kLargestReflectance},
+                             value_of<MaterialWords>(reading).material.diffuse);
 }
-bool read_reflect(SceneReading& reading, MaterialWords& words) {
-  return read_grey_or_colour(reading.words, {"reflect"}, {0, kLargestReflectance}, words.optics.reflect);
+bool read_reflect(SceneReading& reading) {
+  return read_grey_or_colour(reading.words, {"reflect"}, {0, kLargestReflectance},
+                             value_of<MaterialWords>(reading).optics.reflect);
 }
-bool read_transmit(SceneReading& reading, MaterialWords& words) {
-  return read_grey_or_colour(reading.words, {"transmit"}, {0, kLargestReflectance}, words.optics.transmit);
+bool read_transmit(SceneReading& reading) {
+  return read_grey_or_colour(reading.words, {"transmit"}, {0, kLargestReflectance},
+                             value_of<MaterialWords>(reading).optics.transmit);
 }
-bool read_highlight(SceneReading& reading, MaterialWords& words) { return read_highlight(reading.words, words.optics); }
+bool read_highlight(SceneReading& reading) {
+  return read_highlight(reading.words, value_of<MaterialWords>(reading).optics);
+}
 
-bool read_later(SceneReading& reading, MaterialWords&) { return not_supported_yet(reading, reading.key); }
+bool read_later(SceneReading& reading) { return not_supported_yet(reading, reading.key); }
 
-constexpr Key<MaterialWords> kMaterialKeys[] = {{"diffuse", kAlways, kAlways, read_diffuse},
-                                                {"texture", kAlways, 0, read_later},
-                                                {"reflect", kAlways, 0, read_reflect},
-                                                {"transmit", kAlways, 0, read_transmit},
-                                                {"highlight", kAlways, 0, read_highlight}};
+constexpr Key kMaterialKeys[] = {{"diffuse", kAlways, kAlways, read_diffuse},
+                                 {"texture", kAlways, 0, read_later},
+                                 {"reflect", kAlways, 0, read_reflect},
+                                 {"transmit", kAlways, 0, read_transmit},
+                                 {"highlight", kAlways, 0, read_highlight}};
 
 }  // namespace
+
+bool read_keys(SceneReading& reading, std::span<const Key> keys, std::uint32_t kind, void* value) {
+  Words& words = reading.words;
+  std::uint32_t seen = 0;
+  reading.value = value;
+  while (words.at_word()) {
+    std::uint32_t k = 0;
+    while (k < keys.size() && ((keys[k].kinds & kind) == 0 || keys[k].word != words.peek().text)) ++k;
+    if (k == keys.size()) return expected_key(words, keys, kind);
+    if ((seen >> k & 1) != 0) return words.expected("this word once only");
+    seen |= std::uint32_t{1} << k;
+    reading.key = words.take();
+    if (!keys[k].read(reading)) return false;
+  }
+  for (std::uint32_t k = 0; k < keys.size(); ++k) {
+    if ((keys[k].required & kind) != 0 && (seen >> k & 1) == 0) return words.expected(keys[k].word);
+  }
+  return true;
+}
 
 bool read_statements(SceneReading& reading) {
   Words& words = reading.words;
@@ -149,7 +187,7 @@ bool read_reference(SceneReading& reading, std::string_view what, FindName find,
   if (index != kNone) return true;
   index = 0;
   if (!reading.store.storing()) return true;
-  TextBuilder message = reading.words.mistake(name);
+  MessageText message = reading.words.mistake(name);
   message.add("expected ").add(what).add(" defined above");
   add_found(message, name);
   return false;
@@ -158,9 +196,14 @@ bool read_reference(SceneReading& reading, std::string_view what, FindName find,
 bool read_new_name(SceneReading& reading, std::string_view what, FindName find, Token& name) {
   if (!read_name(reading.words, what, name)) return false;
   if ((reading.store.*find)(name.text) == kNone) return true;
-  TextBuilder message = reading.words.mistake(name);
+  MessageText message = reading.words.mistake(name);
   message.add("expected ").add(what).add(" not used before");
   add_found(message, name);
+  return false;
+}
+
+bool left_out(SceneReading& reading, const Token& at) {
+  reading.words.mistake(at).add("this library is built without '").add(at.text).add('\'');
   return false;
 }
 
@@ -206,7 +249,7 @@ bool read_camera(SceneReading& reading) {
   Token name;
   if (!read_new_name(reading, "the name of a camera", &SceneStore::find_camera, name)) return false;
   Camera camera;
-  if (!read_keys<Camera>(reading, kCameraKeys, kAlways, camera)) return false;
+  if (!read_keys(reading, kCameraKeys, kAlways, &camera)) return false;
   if (camera.look == camera.eye) {
     words.mistake(name).add("expected a camera that looks at another point than its eye");
     return false;
@@ -226,6 +269,7 @@ bool read_camera(SceneReading& reading) {
 
 /// include PATH; the file is entered when the statement has ended.
 bool read_include(SceneReading& reading) {
+  if constexpr (!features::kIncludes) return left_out(reading, reading.statement);
   if (!reading.words.at_word()) return reading.words.expected("the path of a file");
   reading.include = reading.words.take();
   return true;
@@ -236,7 +280,7 @@ bool read_material(SceneReading& reading) {
   Token name;
   if (!read_new_name(reading, "the name of a material", &SceneStore::find_material, name)) return false;
   MaterialWords words;
-  if (!read_keys<MaterialWords>(reading, kMaterialKeys, kAlways, words)) return false;
+  if (!read_keys(reading, kMaterialKeys, kAlways, &words)) return false;
   if (!keep_energy(reading, name, words.material, words.optics)) return false;
   words.optics.material = static_cast<std::uint32_t>(reading.store.counts().materials);
   words.material.name = reading.store.add_name(name.text);

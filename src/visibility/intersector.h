@@ -32,7 +32,7 @@ struct Aim {
   bool any_triangle = true;  // nothing is known: flags off
 
   /// No segment is blocked: none is needed.
-  bool clear() const { return !any_triangle && facets.empty(); }
+  bool clear() const { return features::kAims && !any_triangle && facets.empty(); }
 };
 
 class Intersector {
@@ -50,7 +50,7 @@ class Intersector {
   bool start(Arena& arena);
   void finish();
   /// Whether aims find anything: between start() and finish(), flags not off.
-  bool seeking() const { return started_; }
+  bool seeking() const { return features::kAims && started_; }
   /// Arena bytes of start() after take_flags().
   static std::uint64_t bytes(const Geometry& geometry, FlagMode mode);
 
