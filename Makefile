@@ -1,4 +1,4 @@
-# shodo: `make` builds build/shodo. Other targets: rooms, report, test, check-same-bytes, machines, workstation,
+# shodo: `make` builds build/shodo. Other targets: rooms, pictures, report, test, check-same-bytes, machines, workstation,
 # fuzz, soak, scaling, memory-cost, check-budgets, install, install-needs, clean.
 #
 # Settings, on the command line of make:
@@ -83,6 +83,25 @@ $(OUT)/%.png: data/%.scn $(BUILD)/shodo $(wildcard data/*)
 	@mkdir -p $(OUT)
 	$(BUILD)/shodo render $< -o $@ --stats $(OUT)/$*.json
 
+# Those of doc/measuring.md.
+PICTURE_SCENES = cornell white_box door stair
+pictures: $(PICTURE_SCENES:%=doc/pictures/%.png) doc/pictures/false-colour.png doc/pictures/isolux.png \
+  doc/pictures/patches.png doc/pictures/difference.png
+$(PICTURE_SCENES:%=doc/pictures/%.png): SCENE = $(basename $(notdir $@))
+doc/pictures/false-colour.png: SCENE = evening
+doc/pictures/false-colour.png: SHOWN = --false-colour auto --isolux auto
+doc/pictures/isolux.png: SCENE = door
+doc/pictures/isolux.png: SHOWN = --isolux auto
+doc/pictures/patches.png: SCENE = stair
+doc/pictures/patches.png: SHOWN = --show patches
+doc/pictures/%.png: $(BUILD)/shodo $(wildcard data/*)
+	$(BUILD)/shodo render data/$(SCENE).scn -o $@ --size 400x320 $(SHOWN)
+doc/pictures/difference.png: $(BUILD)/shodo data/door.scn
+	@mkdir -p $(OUT)
+	$(BUILD)/shodo render data/door.scn -o $(OUT)/door.ppm --size 400x320
+	$(BUILD)/shodo render data/door.scn -o $(OUT)/door-2.ppm --size 400x320 --rules 2
+	$(BUILD)/shodo difference $(OUT)/door.ppm $(OUT)/door-2.ppm -o $@
+
 test: $(BUILD)/shodo $(BUILD)/tests
 	@BUILD=$(BUILD) sh tests/run
 
@@ -140,7 +159,7 @@ clean:
 	rm -rf $(BUILD) $(OUT)
 
 FORCE:
-.PHONY: all rooms report test check-same-bytes machines workstation scaling memory-cost check-budgets install \
+.PHONY: all rooms pictures report test check-same-bytes machines workstation scaling memory-cost check-budgets install \
   fuzz soak install-needs clean FORCE
 .SECONDARY:
 

@@ -1,4 +1,5 @@
-// Ambient illuminance on measuring planes: rows of the form-factor matrix that have no column (ours).
+// Ambient illuminance on measuring planes: rows of the form-factor matrix that have no column
+// (deviation D16).
 //
 //     E_x = sum over patches j, ascending, of F_xj V_xj rho_j E_j
 //

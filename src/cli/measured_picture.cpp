@@ -20,7 +20,7 @@ bool front(std::uint32_t surface) { return surface != 0 && surface < kBack; }
 
 /// Black on light grounds, white on dark ones.
 Rgb8 ink_on(const Rgb8& ground) {
-  return 2 * ground[0] + 5 * ground[1] + ground[2] > 8 * 112 ? kBlack : kWhiteInk;
+  return 2 * ground[0] + 5 * ground[1] + ground[2] > 8 * 80 ? kBlack : kWhiteInk;
 }
 
 Rgb8 mixed(const Rgb8& ground, const Rgb8& ink, std::uint32_t part) {

@@ -33,6 +33,19 @@ TEST(DisplayTable, IsTheSrgbFormulaAndAscends) {
   }
 }
 
+// The hyperbola joins the line at half of the range with the same slope, and goes to white without reaching it.
+TEST(DisplaySteps, RollOffIsTheStatedCurve) {
+  Display clipped{1, 101, false}, rolled{1, 101, true};
+  for (int k = 0; k <= 2000; ++k) {
+    const double luminance = 0.5 * k, v = (luminance - 1) / 100;
+    const double shown = v <= 0 ? 0 : v <= 0.5 ? v : 1 - 1 / (4 * v);
+    EXPECT_NEAR(luminance_steps(rolled, luminance), 8192 * shown, 0.5001) << luminance;
+    EXPECT_NEAR(luminance_steps(clipped, luminance), std::min(8192 * std::max(v, 0.0), 65535.0), 0.5001) << luminance;
+  }
+  EXPECT_EQ(luminance_steps(rolled, 101), 6144);
+  EXPECT_EQ(luminance_steps(rolled, 1e9), 8192);
+}
+
 TEST(DisplaySteps, RoundAndClamp) {
   EXPECT_EQ(display_steps(0), 0);
   EXPECT_EQ(display_steps(1), 8192);
