@@ -1,5 +1,5 @@
-# shodo: `make` builds build/shodo. Other targets: rooms, report, test, check-same-bytes, machines, workstation,
-# scaling, memory-cost, check-budgets, install, install-needs, clean.
+# shodo: `make` builds build/shodo. Other targets: rooms, report, test, hard, stability, load, check-same-bytes,
+# machines, workstation, scaling, memory-cost, check-budgets, install, install-needs, clean.
 #
 # Settings, on the command line of make:
 #   CXX=clang++ OPT=-O0   another compiler or optimisation; what was built with other flags is built again
@@ -86,6 +86,19 @@ $(OUT)/%.png: data/%.scn $(BUILD)/shodo $(wildcard data/*)
 test: $(BUILD)/shodo $(BUILD)/tests
 	@BUILD=$(BUILD) sh tests/run
 
+# All hard cases with their long sweeps: the table, and out/hard.csv (number,name,status,figure).
+hard: $(BUILD)/tests
+	@mkdir -p $(OUT)
+	SHODO_HARD=all SHODO_HARD_TABLE=$(OUT)/hard.csv $(BUILD)/tests --gtest_brief=1 --gtest_filter='HardTable.*'
+
+# The plots and tables of doc/stability.md.
+stability: $(BUILD)/tests
+	SHODO_HARD=all SHODO_STABILITY=doc/pictures $(BUILD)/tests --gtest_brief=1 --gtest_filter='Stability.*:Convergence.*'
+
+# Scenes and pictures as large as the budgets of doc/stability.md allow; takes minutes.
+load: $(BUILD)/shodo $(BUILD)/tests
+	SHODO_HARD=all $(BUILD)/tests --gtest_filter='Load.*:Metamorphic.*'
+
 # Only the comparison of compilers and optimisation levels; part of `make test`.
 check-same-bytes:
 	@sh tests/same_bytes
@@ -130,7 +143,7 @@ clean:
 	rm -rf $(BUILD) $(OUT)
 
 FORCE:
-.PHONY: all rooms report test check-same-bytes machines workstation scaling memory-cost check-budgets install \
+.PHONY: all rooms report test hard stability load check-same-bytes machines workstation scaling memory-cost check-budgets install \
   install-needs clean FORCE
 .SECONDARY:
 
