@@ -1,5 +1,5 @@
-# shodo: `make` builds build/shodo. Other targets: rooms, pictures, report, test, check-same-bytes, machines, workstation,
-# fuzz, soak, scaling, memory-cost, check-budgets, install, install-needs, clean.
+# shodo: `make` builds build/shodo. Other targets: rooms, pictures, report, test, hard, stability, load, check-same-bytes,
+# fuzz, soak, mutants, machines, workstation, scaling, memory-cost, check-budgets, install, install-needs, clean.
 #
 # Settings, on the command line of make:
 #   CXX=clang++ OPT=-O0   another compiler or optimisation; what was built with other flags is built again
@@ -105,6 +105,19 @@ doc/pictures/difference.png: $(BUILD)/shodo data/door.scn
 test: $(BUILD)/shodo $(BUILD)/tests
 	@BUILD=$(BUILD) sh tests/run
 
+# All hard cases with their long sweeps: the table, and out/hard.csv (number,name,status,figure).
+hard: $(BUILD)/tests
+	@mkdir -p $(OUT)
+	SHODO_HARD=all SHODO_HARD_TABLE=$(OUT)/hard.csv $(BUILD)/tests --gtest_brief=1 --gtest_filter='HardTable.*'
+
+# The plots and tables of doc/stability.md.
+stability: $(BUILD)/tests
+	SHODO_HARD=all SHODO_STABILITY=doc/pictures $(BUILD)/tests --gtest_brief=1 --gtest_filter='Stability.*:Convergence.*'
+
+# Scenes and pictures as large as the budgets of doc/stability.md allow; takes minutes.
+load: $(BUILD)/shodo $(BUILD)/tests
+	SHODO_HARD=all $(BUILD)/tests --gtest_filter='Load.*:Metamorphic.*'
+
 # Only the comparison of compilers and optimisation levels; part of `make test`.
 check-same-bytes:
 	@sh tests/same_bytes
@@ -118,6 +131,11 @@ fuzz:
 soak: $(BUILD)/tests
 	@sh tests/fuzz/run 1800
 	SHODO_SOAK=50 $(BUILD)/tests --gtest_filter='TriangleTest.*:Leaks.*'
+
+# The core's code with one sign changed, and whether the tests see it; hours. MUTANTS: how many a group.
+MUTANTS = 20
+mutants:
+	@sh tests/mutants/run $(MUTANTS)
 
 # The program, the library with its headers, what pkg-config and man read (doc/library.md).
 VERSION = $(shell sed -n 's/.*kVersion = "shodo \(.*\)".*/\1/p' src/cli/arguments.h)
@@ -159,8 +177,8 @@ clean:
 	rm -rf $(BUILD) $(OUT)
 
 FORCE:
-.PHONY: all rooms pictures report test check-same-bytes machines workstation scaling memory-cost check-budgets install \
-  fuzz soak install-needs clean FORCE
+.PHONY: all rooms pictures report test hard stability load check-same-bytes fuzz soak mutants machines workstation scaling \
+  memory-cost check-budgets install install-needs clean FORCE
 .SECONDARY:
 
 -include $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(TEST_OBJECTS:.o=.d)

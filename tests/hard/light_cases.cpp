@@ -29,7 +29,7 @@ CaseResult light_on_surface() {
         return scene.text();
       };
       // As if infinitesimally in front: as at a hundred thousandth of the room in front.
-      const Run run(make(place.at)), before(make(place.at + 2e-5 * place.inwards));
+      const FullRun run(make(place.at)), before(make(place.at + 2e-5 * place.inwards));
       found.demand(run.done() && run.sound() && before.done(), "a solution");
       found.demand(run.sum(6, 12) == 0, say("the next room exactly dark, turned by %g", angle));
       double flux = 0;
@@ -61,7 +61,7 @@ CaseResult light_in_plane() {
       scene.quad({0, 0, -1.37}, {1, 0, -1.37}, {1, 1, -1.37}, {0, 1, -1.37});
       scene.point_light({3.1, 1.1, z}, 1e6);
       scene.area_light({3, 0, z}, {4, 0, z}, {4, 1, z}, {3, 1, z}, 1e6);
-      const Run run(scene.text());
+      const FullRun run(scene.text());
       found.demand(run.done() && run.sound(), "a solution");
       double most = 0;
       for (std::uint32_t i = 0; i < 35; ++i) most = std::fmax(most, run.e0(i));
@@ -87,7 +87,7 @@ CaseResult light_on_sample() {
       scene.object("room");
       scene.room({0, 0, 0}, {3, 3, 3}, 3, 1);
       scene.point_light({1.5, 1.5, height}, 100);  // the middle of the middle patch
-      const Run run(scene.text());
+      const FullRun run(scene.text());
       found.demand(run.done() && run.sound(), say("finite values at a height of %g", height));
       const double most = run.largest();
       // Half the sphere is above the floor, and a flux can't be more than 2 pi I.
@@ -119,7 +119,7 @@ CaseResult window_grid() {
       scene.quad({low, a, z}, {high, a, z}, {high, b, z}, {low, b, z});
     }
     scene.sun({slant, 0.6 * slant, -1}, 1000);
-    const Run run(scene.text());
+    const FullRun run(scene.text());
     found.demand(run.done() && run.sound(), "a solution");
     const double cosine = 1 / std::sqrt(1 + slant * slant * 1.36);
     const double lit = run.mean(0) / (1000 * cosine), open = 0.7 * 0.7;

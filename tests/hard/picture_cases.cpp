@@ -20,7 +20,7 @@ struct Seen {
 };
 
 /// Every `every`-th sample of a camera's picture against the 128-bit twin; meshes from `first_mesh` on are counted.
-Seen against_twin(const Run& run, std::size_t camera, std::uint32_t width, std::uint32_t height, std::uint32_t antialias,
+Seen against_twin(const FullRun& run, std::size_t camera, std::uint32_t width, std::uint32_t height, std::uint32_t antialias,
                   std::uint32_t every = 1, std::uint32_t first_mesh = kNone) {
   const Model& model = run.model();
   const SampleGrid grid =
@@ -66,7 +66,7 @@ CaseResult edge_on_patch() {
     scene.point_light({1.3, 0.9, 1.6}, 100);
     scene.camera("eye", {0.5, 0.5, 1}, {3, 1.5, 1}, {0, 0, 1}, 80);
     scene.camera("aslant", {0.5, 0.5, 1}, {3, 1.5, 1.4}, {0.3, 0, 1}, 120);
-    Run run(scene.text(), small_picture(200, 150));
+    FullRun run(scene.text(), small_picture(200, 150));
     found.demand(run.done() && !run.picture().empty(), "a picture");
     for (std::uint32_t c = 0; c < 2; ++c) {
       const Seen seen = against_twin(run, c, 200, 150, 1, angle == 0 ? 1 : 3, 6);
@@ -102,7 +102,7 @@ CaseResult camera_on_surface() {
     Options options = small_picture(100, 80);
     const char* names[] = {"on_floor", "on_edge", "in_corner", "on_box", "in_box", "outside"};
     options.camera = names[c];
-    Run run(text, options);
+    FullRun run(text, options);
     found.demand(run.done(), "a solution");
     const auto pixels = run.picture();
     found.demand(!pixels.empty(), "an image");
@@ -138,7 +138,7 @@ CaseResult near_plane_crossers() {
       scene.quad({-20, i - 6.0, 0.3}, {30, i - 6.0 + any(0.1), 0.3}, {30, i - 5.5, 0.3}, {-20, i - 5.5, 0.3});
     }
     scene.camera("eye", {0, 0, 0}, {1, 0, -0.02}, {0, 0, 1}, 30 + 20.0 * (k % 6));
-    const Run run(scene.text(), small_picture());
+    const FullRun run(scene.text(), small_picture());
     found.demand(run.done(), "a solution");
     const Seen seen = against_twin(run, 0, 90, 70, k % 2 == 0 ? 1 : 4);
     samples += seen.samples;
@@ -164,7 +164,7 @@ CaseResult nonplanar_quad() {
   scene.point_light({2, 1, 4}, 300);
   scene.camera("above", {1.9, 1, 5}, {2, 1, 0}, {0, 1, 0}, 50);
   scene.camera("low", {2, -5, 1}, {2, 1, 0}, {0, 0, 1}, 40);
-  const Run run(scene.text(), small_picture());
+  const FullRun run(scene.text(), small_picture());
   found.demand(run.done() && run.sound(), "a solution");
   for (std::uint32_t c = 0; c < 2; ++c) {
     const Seen seen = against_twin(run, c, 150, 110, 1);
@@ -188,7 +188,7 @@ CaseResult nonplanar_quad() {
   double area = 0;
   for (std::uint32_t k = 0; k < 4; ++k) area += model.patches[run.mesh(16).first_patch + k].area;
   found.demand(relative(area, 0.7) < 1e-12, say("the dart's area: %g", area));
-  const Run bow("shodo 1\nmaterial white diffuse 0.5\nobject o\nquad white 0 0 0  1 1 0  1 0 0  0 1 0\n");
+  const FullRun bow("shodo 1\nmaterial white diffuse 0.5\nobject o\nquad white 0 0 0  1 1 0  1 0 0  0 1 0\n");
   found.demand(bow.status.code == StatusCode::kScene && bow.status.line == 4, "a bow-tie refused with its line");
   return found.result("samples of saddles and a concave quad that differ from the twin; no holes; a bow-tie is refused with "
                       "its line");
@@ -209,7 +209,7 @@ CaseResult huge_polygon() {
     scene.sun({0.1, 0.2, -1}, 1000);
     scene.camera("above", {0, 0, 2 * size}, {1, 0, -1}, {0, 1, 0}, 90);
     scene.camera("inside", {1, 1, 1}, {6, 4, 1.5}, {0, 0, 1}, 90);
-    const Run run(scene.text(), small_picture());
+    const FullRun run(scene.text(), small_picture());
     found.demand(run.done() && run.sound(), say("a solution at %g", size));
     const Seen above = against_twin(run, 0, 90, 70, 1), inside = against_twin(run, 1, 90, 70, 1);
     found.worst(static_cast<double>(above.wrong + inside.wrong));
@@ -264,7 +264,7 @@ CaseResult subpixel_polygons() {
   };
   Options options = small_picture(40, 30);
   options.rules.blocks = true;
-  Run fine(make(true), options), whole(make(false), options);
+  FullRun fine(make(true), options), whole(make(false), options);
   found.demand(fine.done() && whole.done(), say("a solution: %s", fine.status.message));
   const auto seen = fine.picture(), expected = whole.picture();
   found.demand(!seen.empty() && seen == expected, "the picture of one quad");
@@ -301,7 +301,7 @@ CaseResult coords_65k() {
       }
       scene.quad({-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1});
       scene.camera("eye", {0, 0, 0}, {0.1 * random.signed_unit(), 0, -1}, {0, 1, 0}, k % 2 == 0 ? 60 : 2);
-      const Run run(scene.text(), small_picture());
+      const FullRun run(scene.text(), small_picture());
       found.demand(run.done(), "a solution");
       const Seen seen = against_twin(run, 0, 80, 60, 1);
       samples += seen.samples;
@@ -348,7 +348,7 @@ CaseResult shared_edge_sheet() {
     const auto at = [](const LatticePoint& p) { return Vec3{p.x / 64.0, p.y / 64.0, 0}; };
     for (const Three& t : sheet) scene.triangle(at(t.p[0]), at(t.p[1]), at(t.p[2]));
     scene.camera("eye", {0, 0, round % 2 == 0 ? 2.0 : -2.0}, {0, 0, 0}, {0, 1, 0}, 45);
-    const Run run(scene.text(), small_picture());
+    const FullRun run(scene.text(), small_picture());
     found.demand(run.done(), "a solution");
     const Model& model = run.model();
     const Seen seen = against_twin(run, 0, 64, 64, 1);

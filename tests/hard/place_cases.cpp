@@ -28,7 +28,7 @@ CaseResult far_origin() {
   Findings found;
   SceneText origin;
   furnish(origin);
-  Run still(origin.text(), to_the_last_digits());
+  FullRun still(origin.text(), to_the_last_digits());
   const auto bits = still.bits();
   const auto pixels = still.picture();
   found.demand(!pixels.empty(), "a solution");
@@ -36,7 +36,7 @@ CaseResult far_origin() {
     // All coordinates are eighths: the shift is exact.
     SceneText moved([=](const Vec3& v) { return v + Vec3{far, -far, far}; });
     furnish(moved);
-    Run run(moved.text(), to_the_last_digits());
+    FullRun run(moved.text(), to_the_last_digits());
     found.demand(run.done() && run.bits() == bits && run.picture() == pixels, say("every bit of the unmoved run at %g", far));
   }
   // Not exact, the bare box: what the file's own digits leave is all that is lost. (With something in it that casts
@@ -49,9 +49,9 @@ CaseResult far_origin() {
     scene.point_light({0.5, 0.25, 2.5}, 100);
     return scene.text();
   };
-  const Run reference(bare(0), to_the_last_digits());
+  const FullRun reference(bare(0), to_the_last_digits());
   for (const double far : {1.0, 1e3, 1e6, 1e9}) {
-    const Run run(bare(far), to_the_last_digits());
+    const FullRun run(bare(far), to_the_last_digits());
     const double error = difference(reference, run);
     // A coordinate is off by far 2^-53; edges of a twelfth, and the light a sixth away, magnify it.
     found.demand(run.done() && error >= 0 && error < 1e-12 + far * 1e-14, say("the file's own rounding at %g: %g", far, error));
@@ -84,11 +84,11 @@ CaseResult scaled() {
   };
   for (const int kind : {0, 1, 2, 3}) {
     const bool furnished = kind >= 2, point = kind % 2 == 1;
-    Run still(make(1, point, furnished), to_the_last_digits());
+    FullRun still(make(1, point, furnished), to_the_last_digits());
     found.demand(still.done() && still.sound(), "a solution");
     const auto pixels = still.picture();
     for (const double s : {1e-6, 1e-5, 1e-4, 1e-2, 0.1, 10.0, 1e3, 1e5, 1e6, 0x1p-20, 0x1p-3, 0x1p1, 0x1p20}) {
-      Run run(make(s, point, furnished), to_the_last_digits());
+      FullRun run(make(s, point, furnished), to_the_last_digits());
       found.demand(run.done() && run.sound() && run.patches() == still.patches(), say("a solution at %g", s));
       const double factor = point ? 1 / (s * s) : 1;
       int exponent = 0;
@@ -134,7 +134,7 @@ CaseResult mirror_symmetry() {
     }
     scene.through({}, false);
     scene.point_light({0, 0.6, 1.1}, 100);
-    const Run run(scene.text(), to_the_last_digits());
+    const FullRun run(scene.text(), to_the_last_digits());
     found.demand(run.done() && run.sound(), "a solution");
     const std::vector<Keyed> all = by_key(run, scene);
     const std::size_t half = all.size() / 2;
@@ -158,12 +158,12 @@ CaseResult permuted_input() {
   for (const double angle : {0.0, 0.1}) {
     SceneText scene(turn({1, 2, 3}, angle));
     furnish(scene);
-    Run first(scene.text(), to_the_last_digits());
+    FullRun first(scene.text(), to_the_last_digits());
     found.demand(first.done() && first.sound(), "a solution");
     const auto pixels = first.picture();
     const std::vector<Keyed> expected = by_key(first, scene);
     for (std::uint64_t seed = 1; seed <= (thorough() ? 50 : 6); ++seed) {
-      Run run(scene.text(seed), to_the_last_digits());
+      FullRun run(scene.text(seed), to_the_last_digits());
       found.demand(run.done(), "a solution");
       const double error = difference(expected, by_key(run, scene));
       found.worst(error);

@@ -1,7 +1,7 @@
 // Hard cases of reflectance and energy: 1, 2, 26, 27, 28, 29.
 #include <cmath>
 
-#include "ambient/ambient_scene.h"
+#include "tests/ambient/ambient_scene.h"
 #include "hard/hard_case.h"
 #include "hard/run.h"
 #include "hard/scene_text.h"
@@ -43,11 +43,11 @@ CaseResult rho_to_1() {
 CaseResult rho_exactly_1() {
   Findings found;
   for (const char* rho : {"1", "1.0001", "0.99991", "1e300", "0.5 1 0.5"}) {
-    const Run run(std::string("shodo 1\nmaterial white diffuse ") + rho + "\n");
+    const FullRun run(std::string("shodo 1\nmaterial white diffuse ") + rho + "\n");
     found.demand(run.status.code == StatusCode::kScene && run.status.line == 2,
                  std::string("a refusal with the line of reflectance ") + rho);
   }
-  const Run run("shodo 1\nmaterial white diffuse 0.9999\n");
+  const FullRun run("shodo 1\nmaterial white diffuse 0.9999\n");
   found.demand(run.done(), "0.9999 taken");
   return found.refused("reflectance above 0.9999, with the line");
 }
@@ -59,7 +59,7 @@ CaseResult zero_lights() {
   scene.object("room");
   scene.room({0, 0, 0}, {3, 2, 2}, 3, 2);
   scene.camera("eye", {0.5, 1, 1}, {3, 1, 1}, {0, 0, 1}, 70);
-  Run run(scene.text(), small_picture());
+  FullRun run(scene.text(), small_picture());
   found.demand(run.done(), "status 0");
   found.demand(run.sum(0, 6) == 0, "all illuminance exactly 0");
   const auto pixels = run.picture();
@@ -75,7 +75,7 @@ CaseResult all_black_all_white() {
   black.object("room");
   black.room({0, 0, 0}, {3, 2, 2}, 4, 2);
   black.point_light({1, 1, 1}, 100);
-  const Run dark(black.text(), small_picture());
+  const FullRun dark(black.text(), small_picture());
   found.demand(dark.done() && dark.sound(), "finite values");
   for (std::uint32_t i = 0; i < dark.patches(); ++i) {
     found.demand(dark.total(i) == dark.e0(i) && dark.e0(i) > 0, "E = E0 exactly where nothing reflects");
@@ -88,7 +88,7 @@ CaseResult all_black_all_white() {
   white.quad({0, 0, 0}, {0, 0, 2}, {2, 0, 2}, {2, 0, 0}, 4, 4);
   white.quad({0, 0, 0}, {0, 2, 0}, {0, 2, 2}, {0, 0, 2}, 4, 4);
   white.point_light({1, 1, 1}, 100);
-  const Run bright(white.text(), small_picture());
+  const FullRun bright(white.text(), small_picture());
   found.demand(bright.done() && bright.sound(), "finite values");
   // What leaves through the open side is lost for good: a patch sees the others with at most 0.4 of its view or so.
   double e0 = 0;
@@ -111,7 +111,7 @@ CaseResult disconnected() {
   for (const FlagMode flags : {FlagMode::kAuto, FlagMode::kOff}) {
     Options options;
     options.flags = flags;
-    const Run run(text, options);
+    const FullRun run(text, options);
     found.demand(run.done() && run.sound(), "a solution");
     found.demand(run.sum(0, 60) + run.sum(66, 300) == 0, "49 boxes exactly dark");
     found.demand(run.sum(60, 66) > 0, "one box lit");
@@ -134,7 +134,7 @@ CaseResult one_patch() {
     scene.object("plate");
     scene.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
     scene.point_light({0.5, 0.5, height}, 100);
-    const Run run(scene.text(), small_picture());
+    const FullRun run(scene.text(), small_picture());
     found.demand(run.done() && run.sound() && run.patches() == 1, "a solution");
     found.demand(run.ambient(0) == 0 && run.total(0) == run.e0(0), "E = E0 exactly");
     // I times the solid angle over the area.

@@ -22,33 +22,33 @@ CaseResult bad_numbers() {
         "shodo 1\n\n\nmaterial white diffuse " + number + "\n",
         "shodo 1\n\n\ncamera c eye 0 0 0 look 1 1 1 up 0 0 1 fov " + number + "\n"};
     for (const std::string& text : texts) {
-      const Run run(text);
+      const FullRun run(text);
       ++refusals;
       found.demand(run.status.code == StatusCode::kScene && run.status.line == 4, number + " refused with its line");
     }
   }
   for (const char* text : {"shodo 1\nmaterial white diffuse\n", "shodo 1\nmaterial white diffuse \"\"\n",
                            "shodo 1\nmaterial white diffuse 1e308\n", "shodo 1\nmaterial white diffuse -1e308\n"}) {
-    const Run run(text);
+    const FullRun run(text);
     ++refusals;
     found.demand(run.status.code == StatusCode::kScene && run.status.line == 2, "a line number");
   }
   // Too large for a square: refused or finite, never infinite.
   for (const std::string& huge : {std::string("1e308"), std::string("1e200"), std::string("1e150"), "1" + digits.substr(0, 300)}) {
-    const Run run("shodo 1\nmaterial white diffuse 0.5\nobject o\nquad white 0 0 0  " + huge + " 0 0  " + huge +
+    const FullRun run("shodo 1\nmaterial white diffuse 0.5\nobject o\nquad white 0 0 0  " + huge + " 0 0  " + huge +
                   " 1 0  0 1 0\nlight l point at 0.5 0.5 1 intensity 100\n");
     found.demand(run.status.code == StatusCode::kScene || (run.done() && run.sound()), huge + " refused or finite");
     refusals += run.done() ? 0 : 1;
   }
   {
-    const Run run("shodo 1\nmaterial white diffuse 0.5\nobject o\nquad white 0 0 0  " + digits + " 0 0  1 1 0  0 1 0\n");
+    const FullRun run("shodo 1\nmaterial white diffuse 0.5\nobject o\nquad white 0 0 0  " + digits + " 0 0  1 1 0  0 1 0\n");
     ++refusals;
     found.demand(run.status.code == StatusCode::kScene && run.status.line == 4, "a number of 400 digits beyond 1e308 refused");
   }
   // -0, denormals, and 400 digits that make an ordinary number are numbers.
   for (const std::string& good : {std::string("-0"), std::string("1e-320"), std::string("5e-324"), std::string("1e-999"),
                                  "0." + digits, digits + "e-400"}) {
-    const Run run("shodo 1\nmaterial white diffuse 0.5\nobject o\nquad white 0 0 " + good + "  1 0 0  1 1 0  0 1 0 patches 1 1\n"
+    const FullRun run("shodo 1\nmaterial white diffuse 0.5\nobject o\nquad white 0 0 " + good + "  1 0 0  1 1 0  0 1 0 patches 1 1\n"
                   "light l point at 0.5 0.5 1 intensity 100\n");
     found.demand(run.done() && run.sound() && run.patches() == 1, good.substr(0, 20) + " taken");
   }

@@ -7,12 +7,12 @@
 
 namespace shodo::hard {
 
-Run::Run(const std::string& text, const Options& options, std::size_t bytes) : memory_(new std::byte[bytes]) {
+FullRun::FullRun(const std::string& text, const Options& options, std::size_t bytes) : memory_(new std::byte[bytes]) {
   status = load("hard.scn", text, {}, options, memory_.get(), bytes, model_);
   if (status.done()) status = solve(*model_, {});
 }
 
-bool Run::sound() const {
+bool FullRun::sound() const {
   const auto good = [](double x) { return std::isfinite(x) && x >= 0; };
   for (const double x : model_->direct.patch_lx) {
     if (!good(x)) return false;
@@ -29,7 +29,7 @@ bool Run::sound() const {
   return true;
 }
 
-double Run::mean(std::uint32_t m) const {
+double FullRun::mean(std::uint32_t m) const {
   double sum = 0, area = 0;
   for (std::uint32_t k = 0; k < mesh(m).patch_count(); ++k) {
     const Patch& patch = model_->patches[mesh(m).first_patch + k];
@@ -40,13 +40,13 @@ double Run::mean(std::uint32_t m) const {
   return area > 0 ? sum / area : 0;
 }
 
-double Run::largest() const {
+double FullRun::largest() const {
   double most = 0;
   for (std::uint32_t i = 0; i < patches(); ++i) most = std::fmax(most, total(i));
   return most;
 }
 
-double Run::sum(std::uint32_t first, std::uint32_t end) const {
+double FullRun::sum(std::uint32_t first, std::uint32_t end) const {
   const std::uint32_t channels = model_->scene.channels;
   double all = 0;
   for (std::uint32_t m = first; m < end; ++m) {
@@ -59,7 +59,7 @@ double Run::sum(std::uint32_t first, std::uint32_t end) const {
   return all;
 }
 
-std::vector<std::uint64_t> Run::bits() const {
+std::vector<std::uint64_t> FullRun::bits() const {
   std::vector<std::uint64_t> all;
   for (const double x : model_->direct.patch_lx) all.push_back(std::bit_cast<std::uint64_t>(x));
   for (const double x : model_->ambient.patch_lx) all.push_back(std::bit_cast<std::uint64_t>(x));
@@ -68,7 +68,7 @@ std::vector<std::uint64_t> Run::bits() const {
   return all;
 }
 
-std::vector<std::uint8_t> Run::picture() {
+std::vector<std::uint8_t> FullRun::picture() {
   std::vector<std::uint8_t> all;
   const LineSink sink{[](void* to, std::uint32_t, std::span<const std::uint8_t> rgb) {
                         auto& pixels = *static_cast<std::vector<std::uint8_t>*>(to);
@@ -101,7 +101,7 @@ double relative(double a, double b) {
   return d == 0 ? 0 : d / std::fabs(b);
 }
 
-double difference(const Run& a, const Run& b) {
+double difference(const FullRun& a, const FullRun& b) {
   if (!a.done() || !b.done() || a.patches() != b.patches()) return -1;
   double worst = 0;
   for (std::uint32_t i = 0; i < a.patches(); ++i) worst = std::fmax(worst, std::fabs(a.total(i) - b.total(i)));

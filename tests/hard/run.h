@@ -10,12 +10,12 @@
 
 namespace shodo::hard {
 
-class Run {
+class FullRun {
  public:
   static constexpr std::size_t kPlenty = std::size_t{512} << 20;  // untouched pages cost nothing
 
   /// Loads and, if that is done, solves. `options.flags` and all else as given.
-  explicit Run(const std::string& text, const Options& options = {}, std::size_t bytes = kPlenty);
+  explicit FullRun(const std::string& text, const Options& options = {}, std::size_t bytes = kPlenty);
 
   bool done() const { return status.done(); }
   /// All is finite, nothing negative, in patches and maps.
@@ -56,6 +56,6 @@ Options to_the_last_digits();
 double relative(double a, double b);
 
 /// The largest difference of two runs' patches, of the largest total of the first; -1 if they don't match.
-double difference(const Run& a, const Run& b);
+double difference(const FullRun& a, const FullRun& b);
 
 }  // namespace shodo::hard

@@ -67,7 +67,7 @@ CaseResult t_junction() {
     const std::uint32_t walls = 15 + 12 + 3 + 10 + 14 + 12;
     cut_wall(scene, x, z, y, 3, 4);
     bright_outside(scene);
-    const Run run(scene.text());
+    const FullRun run(scene.text());
     found.demand(run.done() && run.sound(), "a solution");
     found.demand(run.sum(0, walls) == 0, "all walls of the closed room exactly dark");
     const Vec3 high{x.x, y.y, z.z};
@@ -95,7 +95,7 @@ CaseResult leaky_corner() {
     for (const FlagMode flags : {FlagMode::kAuto, FlagMode::kOff}) {
       Options options = small_picture(160, 120);
       options.flags = flags;
-      Run run(scene.text(), options);
+      FullRun run(scene.text(), options);
       found.demand(run.done() && run.sound(), "a solution");
       found.worst(run.sum(0, 6));
       found.demand(run.sum(0, 6) == 0, "all values inside exactly 0");
@@ -130,10 +130,10 @@ CaseResult coplanar_overlap() {
       scene.camera("eye", {0.9, 0.8, 3}, {1, 1, 0}, {0, 1, 0}, 45);
       return scene.text();
     };
-    Run after(make(1), small_picture(120, 90)), before(make(2), small_picture(120, 90));
+    FullRun after(make(1), small_picture(120, 90)), before(make(2), small_picture(120, 90));
     found.demand(after.done() && before.done(), "a solution");
     const double expected = 1000 / std::sqrt(1.05);
-    for (const auto& [run, picture] : {std::pair<const Run&, std::uint32_t>{after, 1}, {before, 0}}) {
+    for (const auto& [run, picture] : {std::pair<const FullRun&, std::uint32_t>{after, 1}, {before, 0}}) {
       const Mesh& mesh = run.mesh(picture);
       for (std::uint32_t k = 0; k < mesh.sub_patch_count(); ++k) {
         const double lux = static_cast<double>(run.model().maps.direct_lx[mesh.first_sub_patch + k]);
@@ -144,7 +144,7 @@ CaseResult coplanar_overlap() {
     const auto first = after.picture(), second = before.picture();
     found.demand(!first.empty() && first == second, "the same image for both orders");
     // The smaller one is seen: the middle of the picture is as bright as 0.8 of the sun.
-    Run bare(make(0), small_picture(120, 90));
+    FullRun bare(make(0), small_picture(120, 90));
     const auto wall = bare.picture();
     const std::size_t middle = (std::size_t{45} * 120 + 60) * 3;
     found.demand(first[middle] > wall[middle], "the smaller polygon in front");
@@ -180,7 +180,7 @@ CaseResult coplanar_identical() {
     for (const bool opposite : {false, true}) {
       std::vector<std::uint8_t> pixels;
       for (const bool exchanged : {false, true}) {
-        Run run(make(opposite, exchanged), small_picture());
+        FullRun run(make(opposite, exchanged), small_picture());
         found.demand(run.done() && run.sound(), "a solution");
         for (std::uint32_t m = 0; m < 2; ++m) {
           const double expected = opposite && (m == 1) != exchanged ? below : above;
@@ -225,7 +225,7 @@ CaseResult interpenetrating_boxes() {
       }
       return scene.text();
     };
-    const Run lit(make(true)), inner(make(false));
+    const FullRun lit(make(true)), inner(make(false));
     found.demand(lit.done() && lit.sound() && inner.done(), "a solution");
     const Model& model = lit.model();
     const Map back = turn({1, 2, 3}, -angle);
@@ -244,7 +244,7 @@ CaseResult interpenetrating_boxes() {
                  (m < 7 && within({1, 0.5, -0.5}, {3, 1.5, 0.5}, margin));
         };
         const bool under = m != 0 && p.z < -half;
-        const auto lux = [&](const Run& run) {
+        const auto lux = [&](const FullRun& run) {
           return static_cast<double>(run.model().maps.direct_lx[mesh.first_sub_patch + k]) +
                  static_cast<double>(run.model().maps.ambient_lx[mesh.first_sub_patch + k]);
         };

@@ -1,7 +1,7 @@
 // Hard cases of thin, flat and close things: 3, 10, 11, 17, 33, 34.
 #include <cmath>
 
-#include "ambient/ambient_scene.h"
+#include "tests/ambient/ambient_scene.h"
 #include "hard/hard_case.h"
 #include "hard/run.h"
 #include "hard/scene_text.h"
@@ -49,7 +49,7 @@ CaseResult sliver_1e4() {
       found.worst(error);
       found.demand(error < 0.01, say("row sums within 1 %% of 1 with strips of %g: %g", width, error));
     }
-    const Run fine(cut), coarse(uncut);
+    const FullRun fine(cut), coarse(uncut);
     found.demand(fine.done() && fine.sound() && coarse.done(), "a solution");
     found.demand(fine.model().statistics.patches_dropped == 0, "no strip dropped");
     double mean = 0;
@@ -62,7 +62,7 @@ CaseResult sliver_1e4() {
   }
   // Where the lattice ends: reported, and the rest as without them.
   for (const double width : {3e-6, 1e-6, 1e-7}) {
-    const Run fine(strips(width, false)), coarse(strips(width, true));
+    const FullRun fine(strips(width, false)), coarse(strips(width, true));
     found.demand(fine.done() && fine.sound(), "a solution");
     found.demand(fine.model().statistics.patches_dropped == kStrips, say("strips of %g reported as dropped", width));
     for (std::uint32_t m = 0; m < 5; ++m) {
@@ -93,7 +93,7 @@ CaseResult zero_area() {
     return scene.text();
   };
   for (const Map& map : {Map{}, turn({1, 2, 3}, 0.1)}) {
-    Run without(make(false, map), small_picture()), with(make(true, map), small_picture());
+    FullRun without(make(false, map), small_picture()), with(make(true, map), small_picture());
     found.demand(with.done() && without.done(), "a solution");
     found.worst(with.model().statistics.polygons_dropped + with.model().statistics.patches_dropped);
     found.demand(found.figure() == 6, "all 6 counted");
@@ -125,11 +125,11 @@ CaseResult duplicate_vertices() {
     scene.camera("eye", {0.4, 0.5, 1}, {3, 1.5, 0.7}, {0, 0, 1}, 80);
     return scene.text();
   };
-  Run triangle(make(4), small_picture());
+  FullRun triangle(make(4), small_picture());
   found.demand(triangle.done(), "a solution");
   const auto pixels = triangle.picture();
   for (int kind = 0; kind < 4; ++kind) {
-    Run quad(make(kind), small_picture());
+    FullRun quad(make(kind), small_picture());
     found.demand(quad.done() && quad.sound(), "a solution");
     found.worst(difference(triangle, quad));
     found.demand(difference(triangle, quad) >= 0 && difference(triangle, quad) < 2e-3, "the triangle's light");
@@ -206,7 +206,7 @@ CaseResult thin_wall() {
     for (const double angle : {0.0, 0.1, 1.0}) {
       const Map map = angle == 0 ? Map{} : turn({1, 2, 3}, angle);
       const TwoRooms thick(0.1, cut, map);
-      const Run reference(thick.text);
+      const FullRun reference(thick.text);
       found.demand(reference.done(), "a solution");
       for (const double part : thorough() || angle == 0.1 ? many : few) {
         const TwoRooms thin(5.4 * part, cut, map);
@@ -214,7 +214,7 @@ CaseResult thin_wall() {
           if (flags == FlagMode::kOff && !thorough() && part != 4e-6) continue;
           Options options;
           options.flags = flags;
-          const Run run(thin.text, options);
+          const FullRun run(thin.text, options);
           found.demand(run.done() && run.sound(), "a solution");
           found.demand(run.sum(thin.lit_meshes, thin.all_meshes) == 0, say("a dark room exactly dark at %g", part));
           double sum = 0, of_thick = 0;
@@ -257,8 +257,7 @@ CaseResult close_plates() {
         found.demand(sum <= 1, "F at most 1 where the lattice ends");
         continue;
       }
-      // The formula cancels where the plates are close: 1 - 2 d (1 - ...) there, to 1e-3 d.
-      const double expected = distance < 1e-3 ? 1 - 2 * distance : opposed(1, 1, distance);
+      const double expected = near_plates(distance);
       found.worst(relative(sum, expected));
       found.demand(relative(sum, expected) < 0.01, say("F within 1 %% of Howell's at %g x %s: %g", distance, counts, sum));
     }

@@ -4,7 +4,7 @@
 
 namespace shodo::hard {
 
-std::vector<Keyed> by_key(const Run& run, const SceneText& scene) {
+std::vector<Keyed> by_key(const FullRun& run, const SceneText& scene) {
   std::vector<Keyed> all(scene.keys().size());
   for (std::uint32_t m = 0; m < scene.keys().size(); ++m) {
     const Mesh& mesh = run.mesh(m);

@@ -15,7 +15,7 @@ struct Keyed {
 };
 
 /// By key; `scene` after the text() that was run.
-std::vector<Keyed> by_key(const Run& run, const SceneText& scene);
+std::vector<Keyed> by_key(const FullRun& run, const SceneText& scene);
 
 /// The largest difference of E0 and total, of the largest total; -1 if the meshes don't match.
 double difference(const std::vector<Keyed>& a, const std::vector<Keyed>& b);
