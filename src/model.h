@@ -28,6 +28,7 @@ struct Model {
   Statistics statistics;
   Scene scene;
   Geometry geometry;
+  Intersector intersector{geometry};
   std::span<Patch> patches;        // like all that is by patch: until the picture wants the memory
   FlagTables flags;                // of paper 3.1, and what was found; empty with flags off
   DirectLight direct;
@@ -48,5 +49,11 @@ struct Model {
 
 /// What every sample of the picture of a solved model sees. Errors: as draw().
 Status see(Model& model, const Progress& progress, const SeenSink& sink);
+/// The steps of solve(), in this order. What one leaves to the next lies in the model, so that a machine with little
+/// memory for code can hold one at a time (doc/determinism.md). Errors: those of solve().
+Status start_solving(Model& model);
+Status solve_directly(Model& model, const Progress& progress);
+Status solve_ambiently(Model& model, const Progress& progress);
+Status solve_maps(Model& model, const Progress& progress);
 
 }  // namespace shodo

@@ -107,7 +107,7 @@ void end_stage(Model& model, MemoryStage stage) {
 }
 
 /// The sub-patches' direct light stands in spare blocks; if the rows took them, all is lit once more.
-Status keep_sub_patches(Model& model, Intersector& intersector, const Progress& progress) {
+Status keep_sub_patches(Model& model, const Progress& progress) {
   Arena& arena = model.arena;
   DirectLight& direct = model.direct;
   const bool held = !direct.hidden.empty() && arena.holds(direct.hidden) && arena.holds(direct.sub_patch_lx);
@@ -116,7 +116,7 @@ Status keep_sub_patches(Model& model, Intersector& intersector, const Progress& 
   arena.release_spares(model.loaded_spares);
   arena.pin_spares(0);
   const Statistics counted = model.statistics;
-  const Status status = light_directly(model.scene, model.geometry, model.patches, model.options, intersector,
+  const Status status = light_directly(model.scene, model.geometry, model.patches, model.options, model.intersector,
                                        progress, arena, direct, model.statistics, DirectKeeps::kSubPatches);
   model.statistics = counted;
   model.statistics.lit_again = 1;
@@ -139,34 +139,6 @@ Status take_patches(Model& model) {
   const Statistics counted = model.statistics;
   const Status status = build_patches(model.scene, model.geometry, model.arena, model.patches, model.statistics);
   model.statistics = counted;
-  return status;
-}
-
-Status light_and_map(Model& model, const Progress& progress) {
-  Intersector intersector(model.geometry, model.scene, model.options.flags);
-  if (!intersector.take_flags(model.arena)) return model.arena.refused();
-  Status status = light_directly(model.scene, model.geometry, model.patches, model.options, intersector, progress,
-                                 model.arena, model.direct, model.statistics);
-  end_stage(model, MemoryStage::kDirect);
-  if (!status.done()) return status;
-  status = light_ambiently_through_panes(model.scene, model.geometry, model.patches, model.direct, intersector,
-                                         model.options, progress, model.arena, model.ambient, model.statistics);
-  end_stage(model, MemoryStage::kAmbient);
-  if (!status.done()) return status;
-  model.before_maps = model.arena.mark();
-  if (!model.scene.planes.empty()) {
-    status = measure_planes({model.scene, model.geometry, model.patches, model.direct, model.ambient}, model.options,
-                            intersector, progress, model.arena, model.planes, model.statistics);
-    if (!status.done()) return status;
-  }
-  status = keep_sub_patches(model, intersector, progress);
-  end_stage(model, MemoryStage::kDirect);
-  if (!status.done()) return status;
-  model.flags = intersector.flags();
-  if (!progress.go_on(Stage::kMap, 0, 1)) return interrupted();
-  status = map_illuminance(model.scene, model.patches, model.direct, model.ambient, model.options, model.arena,
-                           model.maps);
-  end_stage(model, MemoryStage::kMap);
   return status;
 }
 
@@ -269,7 +241,7 @@ Status load(std::string_view name, std::string_view text, const Reader& reader, 
   return status;
 }
 
-Status solve(Model& model, const Progress& progress) {
+Status start_solving(Model& model) {
   if (const Status fit = self_check(); !fit.done()) return fit;
   model.statistics = model.loaded;
   model.solved = false;
@@ -282,9 +254,51 @@ Status solve(Model& model, const Progress& progress) {
   Status status = take_patches(model);
   if (!status.done()) return with_model(status, model.overhead);
   model.arena.start_stage();
-  status = light_and_map(model, progress);
+  model.intersector = Intersector(model.geometry, model.scene, model.options.flags);
+  if (!model.intersector.take_flags(model.arena)) status = model.arena.refused();
+  return with_model(status, model.overhead);
+}
+
+Status solve_directly(Model& model, const Progress& progress) {
+  const Status status = light_directly(model.scene, model.geometry, model.patches, model.options, model.intersector,
+                                       progress, model.arena, model.direct, model.statistics);
+  end_stage(model, MemoryStage::kDirect);
+  return with_model(status, model.overhead);
+}
+
+Status solve_ambiently(Model& model, const Progress& progress) {
+  const Status status = light_ambiently_through_panes(model.scene, model.geometry, model.patches, model.direct,
+                                                      model.intersector, model.options, progress, model.arena,
+                                                      model.ambient, model.statistics);
+  end_stage(model, MemoryStage::kAmbient);
+  return with_model(status, model.overhead);
+}
+
+Status solve_maps(Model& model, const Progress& progress) {
+  model.before_maps = model.arena.mark();
+  Status status;
+  if (!model.scene.planes.empty()) {
+    status = measure_planes({model.scene, model.geometry, model.patches, model.direct, model.ambient}, model.options,
+                            model.intersector, progress, model.arena, model.planes, model.statistics);
+    if (!status.done()) return with_model(status, model.overhead);
+  }
+  status = keep_sub_patches(model, progress);
+  end_stage(model, MemoryStage::kDirect);
+  if (!status.done()) return with_model(status, model.overhead);
+  model.flags = model.intersector.flags();
+  if (!progress.go_on(Stage::kMap, 0, 1)) return interrupted();
+  status = map_illuminance(model.scene, model.patches, model.direct, model.ambient, model.options, model.arena,
+                           model.maps);
+  end_stage(model, MemoryStage::kMap);
   model.solved = status.done();
   return with_model(status, model.overhead);
+}
+
+Status solve(Model& model, const Progress& progress) {
+  Status status = start_solving(model);
+  if (status.done()) status = solve_directly(model, progress);
+  if (status.done()) status = solve_ambiently(model, progress);
+  return status.done() ? solve_maps(model, progress) : status;
 }
 
 Status draw(Model& model, const Progress& progress, const LineSink& sink) {

@@ -45,8 +45,6 @@ double mean_kernel(const RowSide& i, const RowSide& j, const Vec3& apart) {
   return sum > 0 ? sum : 0;
 }
 
-double magnitude(double x) { return x < 0 ? -x : x; }
-
 /// True if `i` is to be looked at from points of j. Heights: of i's centre over j's plane, and the other way.
 bool looks_at_first(const Patch& i, const Patch& j, double height_of_i, double height_of_j) {
   if (magnitude(i.area - j.area) > kEqual * (i.area + j.area)) return i.area > j.area;

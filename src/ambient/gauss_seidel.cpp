@@ -11,8 +11,6 @@ constexpr std::uint32_t kPatience = 30;
 /// Sweeps with larger changes than the sweep before, after which corrections are no longer tried.
 constexpr std::uint32_t kSetbacks = 3;
 
-double magnitude(double x) { return x < 0 ? -x : x; }
-
 /// By channel: what a sweep changed at most, and the largest illuminance.
 struct SweepResult {
   double change[3] = {0, 0, 0};

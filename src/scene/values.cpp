@@ -21,8 +21,6 @@ bool is_name_character(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
 }
 
-double magnitude(double x) { return x < 0 ? -x : x; }
-
 }  // namespace
 
 bool read_number(Words& words, const What& what, const Interval& allowed, double& value) {

@@ -1,11 +1,13 @@
-// The library in three overlays: one piece of memory for code holds in turn what load, solve and draw need. What a
-// stage leaves to the next lies in the caller's memory, and nothing in it points into code or constants.
+// The library in overlays: one piece of memory for code holds in turn what each stage needs. What a stage leaves to the
+// next lies in the caller's memory, and nothing in it points into code or constants.
 #include "machines/cortex-m3/overlays.h"
 
 #include "model.h"
 
 extern "C" {
-extern std::uint32_t stage_code[], load_from[], load_to[], solve_from[], solve_to[], draw_from[], draw_to[];
+extern std::uint32_t stage_code[];
+extern const std::uint32_t load_from[], load_to[], direct_from[], direct_to[], ambient_from[], ambient_to[],
+    map_from[], map_to[], draw_from[], draw_to[];
 }
 
 namespace machines {
@@ -25,29 +27,37 @@ void bring(const std::uint32_t* from, const std::uint32_t* to) {
 
 namespace shodo {
 
+using machines::bring;
+
 Status self_check() {
-  machines::bring(load_from, load_to);
+  bring(load_from, load_to);
   return machines::enter_self_check();
 }
 
 Status load(std::string_view name, std::string_view text, const Reader& reader, const Options& options, void* memory,
             std::size_t bytes, Model*& model) {
-  machines::bring(load_from, load_to);
+  bring(load_from, load_to);
   return machines::enter_load({name, text, reader, options, memory, bytes}, model);
 }
 
 std::uint64_t smallest_memory(const Model& model, bool picture) {
-  machines::bring(load_from, load_to);
+  bring(load_from, load_to);
   return machines::enter_smallest(model, picture);
 }
 
 Status solve(Model& model, const Progress& progress) {
-  machines::bring(solve_from, solve_to);
-  return machines::enter_solve(model, progress);
+  bring(direct_from, direct_to);
+  Status status = machines::enter_direct(model, progress);
+  if (!status.done()) return status;
+  bring(ambient_from, ambient_to);
+  status = machines::enter_ambient(model, progress);
+  if (!status.done()) return status;
+  bring(map_from, map_to);
+  return machines::enter_map(model, progress);
 }
 
 Status draw(Model& model, const Progress& progress, const LineSink& sink) {
-  machines::bring(draw_from, draw_to);
+  bring(draw_from, draw_to);
   return machines::enter_draw(model, progress, sink);
 }
 

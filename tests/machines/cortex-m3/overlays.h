@@ -7,7 +7,7 @@
 
 #include "shodo/shodo.h"
 
-// The one thing that stays when a stage is optimised as a whole program.
+// The one thing that stays when an overlay is optimised as a whole program.
 #define DOOR __attribute__((externally_visible, used))
 
 namespace machines {
@@ -23,7 +23,9 @@ struct LoadCall {
 DOOR shodo::Status enter_load(const LoadCall& call, shodo::Model*& model);
 DOOR std::uint64_t enter_smallest(const shodo::Model& model, bool picture);
 DOOR shodo::Status enter_self_check();
-DOOR shodo::Status enter_solve(shodo::Model& model, const shodo::Progress& progress);
+DOOR shodo::Status enter_direct(shodo::Model& model, const shodo::Progress& progress);
+DOOR shodo::Status enter_ambient(shodo::Model& model, const shodo::Progress& progress);
+DOOR shodo::Status enter_map(shodo::Model& model, const shodo::Progress& progress);
 DOOR shodo::Status enter_draw(shodo::Model& model, const shodo::Progress& progress, const shodo::LineSink& sink);
 
 }  // namespace machines

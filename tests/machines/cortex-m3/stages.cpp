@@ -1,24 +1,31 @@
-// One stage of the pipeline as an overlay: what is compiled with STAGE 1, 2 or 3 holds all that load, solve or draw
-// needs and nothing else (doc/determinism.md).
+// One stage of the pipeline as an overlay: compiled with STAGE 1 to 5 it holds all that one of them needs and nothing
+// else (doc/determinism.md).
 #include "machines/cortex-m3/overlays.h"
 #include "model.h"
 
 namespace machines {
 
+using shodo::Model;
+using shodo::Progress;
+using shodo::Status;
+
 #if STAGE == 1
-shodo::Status enter_load(const LoadCall& call, shodo::Model*& model) {
+Status enter_load(const LoadCall& call, Model*& model) {
   return shodo::load(call.name, call.text, call.reader, call.options, call.memory, call.bytes, model);
 }
-std::uint64_t enter_smallest(const shodo::Model& model, bool picture) {
-  return shodo::smallest_memory(model, picture);
-}
-shodo::Status enter_self_check() { return shodo::self_check(); }
+std::uint64_t enter_smallest(const Model& model, bool picture) { return shodo::smallest_memory(model, picture); }
+Status enter_self_check() { return shodo::self_check(); }
 #elif STAGE == 2
-shodo::Status enter_solve(shodo::Model& model, const shodo::Progress& progress) {
-  return shodo::solve(model, progress);
+Status enter_direct(Model& model, const Progress& progress) {
+  const Status status = shodo::start_solving(model);
+  return status.done() ? shodo::solve_directly(model, progress) : status;
 }
+#elif STAGE == 3
+Status enter_ambient(Model& model, const Progress& progress) { return shodo::solve_ambiently(model, progress); }
+#elif STAGE == 4
+Status enter_map(Model& model, const Progress& progress) { return shodo::solve_maps(model, progress); }
 #else
-shodo::Status enter_draw(shodo::Model& model, const shodo::Progress& progress, const shodo::LineSink& sink) {
+Status enter_draw(Model& model, const Progress& progress, const shodo::LineSink& sink) {
   return shodo::draw(model, progress, sink);
 }
 #endif
