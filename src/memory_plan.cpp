@@ -4,6 +4,7 @@
 #include "ambient/coloured_panes.h"
 #include "ambient/surfaces.h"
 #include "base/check.h"
+#include "light/mirror_light.h"
 #include "light/sources.h"
 #include "model.h"
 
@@ -21,6 +22,10 @@ std::uint64_t larger(std::uint64_t a, std::uint64_t b) { return a > b ? a : b; }
 
 std::uint64_t drawn_bytes(const Model& model) {
   return rounded_up(sizeof(DrawnTriangle) * std::uint64_t{model.geometry.drawn_count});
+}
+
+std::uint64_t mirror_bytes(const Model& model) {
+  return model.options.mirror_light ? MirrorLight::bytes(model.scene, model.geometry) : 0;
 }
 
 /// What load() leaves, and what it takes meanwhile.
@@ -46,6 +51,9 @@ void plan_light(const Model& model, MemoryPlan& plan) {
            kDirect | kAgain | (scene.patch_count > 0 ? kAmbient : 0));
   plan.add("light sources", "4,096 + 112 lights + 168 faces that emit + 44 ends of segments", Sources::bytes(scene),
            kDirect | kAgain);
+  if (const std::uint64_t mirrors = mirror_bytes(model); mirrors > 0) {
+    plan.add("mirrors that send light on", "48 a triangle, with --mirror-light on", mirrors, kDirect | kAgain);
+  }
   const std::uint64_t result = ambient_result_bytes(scene);
   const std::uint64_t surfaces = surfaces_bytes(scene, options, SurfacesKeep::kNothing);
   const std::uint64_t ambient = smallest_ambient_bytes(scene, model.geometry, options, SurfacesKeep::kNothing);
@@ -125,7 +133,7 @@ bool keeps_geometry(const Model& model) {
   // Geometry costs less to find again than the direct light that would have to make room for it.
   const std::uint64_t coloured = coloured_panes_bytes(scene, model.geometry);
   std::uint64_t most = patches + blockers + ambient + coloured + rows + (rows > 0 ? direct_sub_patch_bytes(scene) : 0);
-  most = larger(most, solved + blockers + Sources::bytes(scene));
+  most = larger(most, solved + blockers + Sources::bytes(scene) + mirror_bytes(model));
   most = larger(most, solved + map_bytes(scene, options));
   return most <= model.arena.capacity();
 }
