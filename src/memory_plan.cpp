@@ -6,6 +6,7 @@
 #include "ambient/coloured_panes.h"
 #include "ambient/surfaces.h"
 #include "base/check.h"
+#include "light/mirror_light.h"
 #include "light/sources.h"
 #include "model.h"
 
@@ -23,6 +24,10 @@ std::uint64_t larger(std::uint64_t a, std::uint64_t b) { return a > b ? a : b; }
 
 std::uint64_t drawn_bytes(const Model& model) {
   return rounded_up(sizeof(DrawnTriangle) * std::uint64_t{model.geometry.drawn_count});
+}
+
+std::uint64_t mirror_bytes(const Model& model) {
+  return model.options.mirror_light ? MirrorLight::bytes(model.scene, model.geometry) : 0;
 }
 
 /// What load() leaves, and what it takes meanwhile.
@@ -44,6 +49,9 @@ void plan_light(const Model& model, MemoryPlan& plan) {
            kDirect | kAgain | (scene.patch_count > 0 ? kAmbient : 0));
   plan.add(PlanPart::kSources, Sources::bytes(scene),
            kDirect | kAgain);
+  if (const std::uint64_t mirrors = mirror_bytes(model); mirrors > 0) {
+    plan.add(PlanPart::kMirrors, mirrors, kDirect | kAgain);
+  }
   const std::uint64_t result = ambient_result_bytes(scene);
   const std::uint64_t surfaces = surfaces_bytes(scene, options, SurfacesKeep::kNothing);
   const std::uint64_t ambient = smallest_ambient_bytes(scene, model.geometry, options, SurfacesKeep::kNothing);
@@ -99,6 +107,7 @@ PartText plan_part_text(PlanPart part) {
       {"direct light of the patches", "(8 c + 8) n"},
       {"possible blockers", "32 facets + 24 boxes + 8 facets"},
       {"light sources", "4,096 + 112 lights + 168 faces that emit + 44 ends of segments"},
+      {"mirrors that send light on", "48 a triangle, with --mirror-light on"},
       {"ambient light of the patches", "8 c n"},
       {"surfaces", "12 a node + 32 blocks + 33 meshes (9 with blocks) + 3,716; their geometry is found again"},
       {"which nodes are linked",
@@ -158,7 +167,7 @@ bool keeps_geometry(const Model& model) {
   // Geometry costs less to find again than the direct light that would have to make room for it.
   const std::uint64_t coloured = coloured_panes_bytes(scene, model.geometry);
   std::uint64_t most = patches + blockers + ambient + coloured + rows + (rows > 0 ? direct_sub_patch_bytes(scene) : 0);
-  most = larger(most, solved + blockers + Sources::bytes(scene) + gather_bytes(scene));
+  most = larger(most, solved + blockers + Sources::bytes(scene) + gather_bytes(scene) + mirror_bytes(model));
   most = larger(most, solved + map_bytes(scene, options));
   return most <= model.arena.capacity();
 }

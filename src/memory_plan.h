@@ -18,7 +18,7 @@ inline constexpr std::size_t kPlanStages = 6;
 const char* plan_stage_name(PlanStage stage);
 
 enum class PlanPart : std::uint8_t {
-  kModel, kScene, kTriangles, kDrawn, kPlacing, kFlags, kDirectLight, kBlockers, kSources, kAmbientLight, kSurfaces,
+  kModel, kScene, kTriangles, kDrawn, kPlacing, kFlags, kDirectLight, kBlockers, kSources, kMirrors, kAmbientLight, kSurfaces,
   kLinks, kSolution, kColouredPanes, kSubPatches, kPlanes, kMeasuring, kMaps, kSpreading, kDrawing
 };
 

@@ -6,6 +6,7 @@
 // ambient stage wants the patches only, so sub-patches lie in spare blocks; if it takes those they are lit once more.
 #include "light/direct.h"
 
+#include "light/mirror_light.h"
 #include "light/receiver.h"
 #include "light/sources.h"
 #include "light/sub_patch_light.h"
@@ -98,10 +99,12 @@ struct PatchSums {
 
 class DirectStage {
  public:
-  DirectStage(const Scene& scene, const Geometry& geometry, Sources& sources, DirectLight& direct)
+  DirectStage(const Scene& scene, const Geometry& geometry, Sources& sources, MirrorLight& mirrors,
+              DirectLight& direct)
       : scene_(scene),
         geometry_(geometry),
         sources_(sources),
+        mirrors_(mirrors),
         direct_(direct),
         coloured_(sources.intersector().panes().coloured()) {}
 
@@ -116,6 +119,7 @@ class DirectStage {
   const Scene& scene_;
   const Geometry& geometry_;
   Sources& sources_;
+  MirrorLight& mirrors_;
   DirectLight& direct_;
   bool coloured_;  // panes: every channel by itself
   std::uint32_t done_ = 0;
@@ -170,6 +174,7 @@ void DirectStage::light_one(std::uint32_t m, std::uint32_t cell, std::uint32_t l
     light.lux[c] = light_sub_patch(sources_, receiver, piece, is_thin(geometry_, piece)).lux[c];
     if (c == 2) sources_.intersector().set_channel(0);
   }
+  if (mirrors_.any() && !light.hidden) mirrors_.add(receiver, piece, is_thin(geometry_, piece), light.lux);
   const std::uint32_t index = mesh.first_sub_patch + local;
   if (light.hidden) {
     if (!direct_.hidden.empty()) direct_.hidden[index] = 1;
@@ -233,8 +238,10 @@ Status light_directly(const Scene& scene, const Geometry& geometry, std::span<co
   Sources sources(scene, geometry, intersector, options.tiers);
   const Status status = sources.prepare(arena);
   if (!status.done()) return status;
+  MirrorLight mirrors(sources);
+  if (options.mirror_light && !mirrors.take(arena)) return arena.refused();
   if (first) take_spare_sub_patches(scene, arena, direct);
-  DirectStage stage(scene, geometry, sources, direct);
+  DirectStage stage(scene, geometry, sources, mirrors, direct);
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
     for (std::uint32_t local = 0; local < scene.meshes[m].patch_count(); ++local) {
       const std::uint32_t patch = scene.meshes[m].first_patch + local;

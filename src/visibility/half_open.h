@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "base/lattice.h"
+#include "visibility/geometry.h"
 
 namespace shodo {
 
@@ -22,6 +23,15 @@ inline EdgeSide edge_side(const LatticeVector& d, const LatticeVector& a, const 
   const std::int64_t value = dot(d, n);
   const std::int64_t decides = value != 0 ? value : n.x != 0 ? n.x : n.y != 0 ? n.y : n.z;
   return {value, decides > 0 ? 1 : decides < 0 ? -1 : 0};
+}
+
+/// Whether the ray from p along d, components within 2^20, passes the triangle: open at p, half-open at its edges.
+inline bool passes(const Triangle& triangle, const LatticePoint& p, const LatticeVector& d) {
+  const std::int64_t side = triangle.side(p), through = dot(triangle.n, d);
+  if (side >= 0 ? (side == 0 || through >= 0) : through <= 0) return false;
+  const LatticeVector a = triangle.a - p, b = triangle.b - p, c = triangle.c - p;
+  const int sign = edge_side(d, a, b).sign;
+  return sign != 0 && sign == edge_side(d, b, c).sign && sign == edge_side(d, c, a).sign;
 }
 
 }  // namespace shodo

@@ -7,14 +7,10 @@ namespace shodo {
 
 namespace {
 
-/// Whether the line from p along d passes the triangle, and before p + d if it ends there.
-bool passes(const Triangle& triangle, const LatticePoint& p, const LatticeVector& d, bool ends) {
-  const std::int64_t side = triangle.side(p), through = dot(triangle.n, d);
-  if (side >= 0 ? (side == 0 || through >= 0) : through <= 0) return false;
-  if (ends && (side > 0 ? side + through >= 0 : side + through <= 0)) return false;
-  const LatticeVector a = triangle.a - p, b = triangle.b - p, c = triangle.c - p;
-  const int sign = edge_side(d, a, b).sign;
-  return sign != 0 && sign == edge_side(d, b, c).sign && sign == edge_side(d, c, a).sign;
+/// Whether p and q lie on the same side, or one of them in the plane.
+bool misses(const Triangle& triangle, const LatticePoint& p, const LatticePoint& q) {
+  const std::int64_t a = triangle.side(p), b = triangle.side(q);
+  return a > 0 ? b >= 0 : a == 0 || b <= 0;
 }
 
 LatticeBox box_between(const LatticePoint& p, const LatticePoint& q) {
@@ -68,11 +64,11 @@ double Panes::product(const LatticeBox& around, Passes passes_one) const {
 
 double Panes::pass(const LatticePoint& p, const LatticePoint& q) const {
   const LatticeVector d = q - p;
-  return product(box_between(p, q), [&](const Triangle& triangle) { return passes(triangle, p, d, true); });
+  return product(box_between(p, q), [&](const Triangle& triangle) { return !misses(triangle, p, q) && passes(triangle, p, d); });
 }
 
 double Panes::pass_along(const LatticePoint& p, const LatticeVector& d) const {
-  return product(box_between(p, end_of(p, d)), [&](const Triangle& triangle) { return passes(triangle, p, d, false); });
+  return product(box_between(p, end_of(p, d)), [&](const Triangle& triangle) { return passes(triangle, p, d); });
 }
 
 }  // namespace shodo
