@@ -66,7 +66,7 @@ void plan_picture(const Model& model, MemoryPlan& plan) {
   plan.add("ambient maps", "4 c s", maps, kMap | kPicture);
   plan.add("spreading over a mesh", "9 a patch + 8 a row of sub-patches, of the largest mesh",
            map_bytes(scene, model.options) - maps, kMap);
-  plan.add("drawing, or placing again", "2 c s + 8193 + (4 c + 3) width + 4 rows + 4 drawn + 392 active triangles",
+  plan.add("drawing, or placing again", "2 c s + 8193 + (4 c + 3) width + 4 rows + 10 drawn + 208 active triangles",
            larger(model.geometry.placing_bytes, model.picture_scratch), kPicture);
 }
 

@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "picture/display.h"
 #include "picture/shade.h"
+#include "picture/texels.h"
 #include "picture/view.h"
 #include "picture/visible_lines.h"
 
@@ -31,6 +32,13 @@ Status no_camera(const Scene& scene, std::string_view name) {
   return status;
 }
 
+Status wrong_size() {
+  Status status;
+  status.code = StatusCode::kUsage;
+  TextBuilder(status.message, sizeof status.message).add("expected a picture of 1 to 16384 pixels each way");
+  return status;
+}
+
 SampleGrid grid_of(const Camera& camera, const Lattice& lattice, const Options& options) {
   const View view = view_of(camera, lattice, options.width, options.height);
   return sample_grid(view, options.width, options.height, options.antialias);
@@ -44,15 +52,20 @@ struct Picture {
   DisplayMaps maps;
   VisibleLines lines;
   std::span<std::uint8_t> level;   // sRGB of display steps
-  std::span<std::uint32_t> sums;   // [pixel * channels + channel]: display steps of a pixel's samples
+  std::span<std::uint32_t> sums;   // [pixel * channels + channel]: display steps of a pixel's samples, if it has more
   std::span<std::uint8_t> rgb;
 };
+
+/// Sums of a line of pixels: none where a sample is a pixel.
+std::size_t sums_of(const SampleGrid& grid, std::uint32_t width, std::uint32_t channels) {
+  return grid.shift == 0 ? 0 : std::size_t{width} * channels;
+}
 
 bool prepare(Picture& picture, const IlluminanceMaps& maps, const Options& options, Arena& arena) {
   const Scene& scene = *picture.scene;
   if (!build_display_maps(scene, maps, arena, picture.maps)) return false;
   if (!arena.take("display table", kWhite + 1, picture.level)) return false;
-  if (!arena.take("line of samples", std::size_t{options.width} * scene.channels, picture.sums)) return false;
+  if (!arena.take("line of samples", sums_of(picture.grid, options.width, scene.channels), picture.sums)) return false;
   if (!arena.take("line of pixels", std::size_t{3} * options.width, picture.rgb)) return false;
   fill_display_table(picture.level);
   return picture.lines.start(scene, *picture.geometry, picture.grid, arena);
@@ -69,32 +82,60 @@ MapTexels texels_of(const Picture& picture, const Mesh& mesh) {
   return texels;
 }
 
-void add_light(Picture& picture, const Light& light, const VisibleSpan& span) {
-  const std::uint32_t channels = picture.scene->channels;
-  for (std::uint32_t c = 0; c < channels; ++c) {
+void show_light(const Picture& picture, const Light& light, const VisibleSpan& span, const SampleRow& samples) {
+  std::uint32_t shown[3] = {0, 0, 0};
+  for (std::uint32_t c = 0; c < samples.channels; ++c) {
     const std::uint32_t steps = luminance_steps(picture.scene->display, light.strength * light.colour.c[c]);
-    const std::uint32_t shown = steps < kWhite ? steps : kWhite;
-    for (std::int32_t x = span.x0; x < span.x1; ++x) {
-      picture.sums[(static_cast<std::uint32_t>(x) >> picture.grid.shift) * channels + c] += shown;
-    }
+    shown[c] = steps < kWhite ? steps : kWhite;
   }
+  show_plain(samples, span.x0, span.x1, shown);
 }
 
-/// Adds one row of samples to the sums of its pixels; backs are black.
-void add_row(Picture& picture, std::uint32_t row) {
-  picture.lines.begin_row(row);
-  for (VisibleSpan span; picture.lines.next(span);) {
+/// Adjacent spans of one map; empty if x0 = x1.
+struct MapSpan {
+  std::int32_t x0 = 0, x1 = 0;
+  std::uint32_t carrier = kNone;
+  const ActiveTriangle* active = nullptr;
+};
+
+void show_span(const Picture& picture, const MapSpan& span, std::uint32_t row, const SampleRow& samples) {
+  const DrawnTriangle& carrier = picture.geometry->drawn[span.carrier];
+  const MapTexels texels = texels_of(picture, picture.scene->meshes[carrier.mesh]);
+  MapWalk walk(*span.active, carrier, picture.grid, static_cast<std::int32_t>(row), span.x0, span.x1);
+  for (MapPiece piece; walk.next(piece);) show_piece(texels, piece, samples);
+}
+
+/// Adds one row of samples to the picture; nothing and backs are black.
+void show_row(Picture& picture, std::uint32_t row) {
+  const SampleRow samples{picture.level.data(), picture.rgb.data(), picture.sums.data(), picture.grid.shift,
+                          picture.scene->channels};
+  VisibleLines& lines = picture.lines;
+  lines.begin_row(row);
+  MapSpan map;
+  std::int32_t end = 0;
+  const auto black_until = [&](std::int32_t x) {
+    if (x > end) show_plain(samples, end, x, {0, 0, 0});
+  };
+  for (VisibleSpan span; lines.next(span);) {
     if (!span.front) continue;
     const DrawnTriangle& drawn = picture.geometry->drawn[span.triangle];
-    if (drawn.light != kNone) {
-      add_light(picture, picture.scene->lights[drawn.light], span);
+    const bool is_light = drawn.light != kNone;
+    if (!is_light && span.x0 == map.x1 && map.carrier == lines.map_of(span.triangle)) {
+      end = map.x1 = span.x1;
       continue;
     }
-    const MapTexels texels = texels_of(picture, picture.scene->meshes[drawn.mesh]);
-    MapWalk walk(picture.lines.active(span.active), drawn, picture.grid, static_cast<std::int32_t>(row), span.x0,
-                 span.x1);
-    for (MapPiece piece; walk.next(piece);) add_piece(texels, piece, picture.grid.shift, picture.sums);
+    if (map.x0 < map.x1) show_span(picture, map, row, samples);
+    map = {};
+    black_until(span.x0);
+    end = span.x1;
+    if (is_light) {
+      show_light(picture, picture.scene->lights[drawn.light], span, samples);
+    } else {
+      map = {span.x0, span.x1, lines.map_of(span.triangle), &lines.active(span.active)};
+    }
   }
+  if (map.x0 < map.x1) show_span(picture, map, row, samples);
+  black_until(static_cast<std::int32_t>(picture.grid.columns));
 }
 
 /// The mean over each pixel's samples in sRGB; a grey scene's one channel three times.
@@ -123,6 +164,8 @@ Status draw_picture(const Scene& scene, const Geometry& geometry, const Illumina
                     const Progress& progress, Arena& arena, const LineSink& sink) {
   const Camera* camera = find_camera(scene, options.camera);
   if (camera == nullptr) return no_camera(scene, options.camera);
+  constexpr std::uint32_t kMost = 16384;  // four rows of samples a pixel: 16 bits number them
+  if (options.width - 1 >= kMost || options.height - 1 >= kMost) return wrong_size();
   const ArenaScratch scratch(arena);
   Picture picture;
   picture.scene = &scene;
@@ -133,8 +176,8 @@ Status draw_picture(const Scene& scene, const Geometry& geometry, const Illumina
   for (std::uint32_t y = 0; y < options.height; ++y) {
     if (!progress.go_on(Stage::kPicture, y, options.height)) return interrupted();
     for (std::uint32_t& sum : picture.sums) sum = 0;
-    for (std::uint32_t row = y * rows; row < (y + 1) * rows; ++row) add_row(picture, row);
-    finish_line(picture, options.width);
+    for (std::uint32_t row = y * rows; row < (y + 1) * rows; ++row) show_row(picture, row);
+    if (picture.grid.shift != 0) finish_line(picture, options.width);
     if (sink.line != nullptr && !sink.line(sink.context, y, picture.rgb)) return interrupted();
   }
   if (!progress.go_on(Stage::kPicture, options.height, options.height)) return interrupted();
@@ -147,7 +190,8 @@ std::uint64_t picture_bytes(const Scene& scene, const Geometry& geometry, const 
   const SampleGrid grid = grid_of(*camera, geometry.lattice, options);
   std::uint64_t filling = 0;
   for (const Mesh& mesh : scene.meshes) filling = mesh.sub_patch_count() > filling ? mesh.sub_patch_count() : filling;
-  const std::uint64_t lines = rounded_up(kWhite + 1) + rounded_up(4 * std::uint64_t{options.width} * scene.channels) +
+  const std::uint64_t sums = sums_of(grid, options.width, scene.channels);
+  const std::uint64_t lines = rounded_up(kWhite + 1) + rounded_up(4 * sums) +
                               rounded_up(3 * std::uint64_t{options.width}) + VisibleLines::bytes(scene, geometry, grid);
   return rounded_up(2 * std::uint64_t{scene.sub_patch_count} * scene.channels) +
          (rounded_up(filling) > lines ? rounded_up(filling) : lines);

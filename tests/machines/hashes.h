@@ -14,13 +14,13 @@ struct Hashes {
 };
 
 inline constexpr Hashes kHashes[] = {
-    {"box", 0xf05f133455233400, 0xa9a5b49974afe280},
+    {"box", 0xf05f133455233400, 0xe14d0fbab40667de},
     {"sun", 0x9e54c6cd4147ac22, 0x6973181985d668a5},
-    {"shapes", 0xe172d80437caa710, 0xdc78574ecb08cedd},
-    {"rules", 0x93531a6d034cebd3, 0x250d75e13c00b291},
-    {"rule2+", 0x72b8f90567c946d6, 0xdce93435537fe323},
-    {"blocks", 0xc1ed55ed74e9dd36, 0x937ba125e9fcc7a4},
-    {"day", 0x5400ccb94ce11f23, 0x4b9d56911116618e},
+    {"shapes", 0xe172d80437caa710, 0x9cc97328ebb26d17},
+    {"rules", 0x93531a6d034cebd3, 0xad1e3ee8deb68bb0},
+    {"rule2+", 0x72b8f90567c946d6, 0x5ff5f74d3979ced5},
+    {"blocks", 0xc1ed55ed74e9dd36, 0x41fbd32f8b017c31},
+    {"day", 0x5400ccb94ce11f23, 0xc9e04aa147b0992d},
 };
 
 }  // namespace machines
