@@ -122,7 +122,7 @@ PartText plan_part_text(PlanPart part) {
       {"while measuring", "(44 + 8 c) sub-patches of a plane's patch"},
       {"ambient maps", "4 c s"},
       {"spreading over a mesh", "9 a patch + 8 a row of sub-patches, of the largest mesh"},
-      {"drawing, or placing again", "2 c s + 8193 + (4 c + 3) width + 4 rows + 4 drawn + 392 active triangles"},
+      {"drawing, or placing again", "2 c s + 8193 + (4 c + 3) width + 4 rows + 10 drawn + 208 active triangles"},
   };
   static_assert(std::size(kTexts) == static_cast<std::size_t>(PlanPart::kDrawing) + 1);
   return kTexts[static_cast<std::size_t>(part)];

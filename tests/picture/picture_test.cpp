@@ -179,7 +179,19 @@ TEST(Picture, AntialiasingIsTheMeanOfSamples) {
   }
 }
 
-TEST(Picture, DoesNotDependOnTheOrderOfTriangles) {
+TEST(Picture, RefusesSizesBeyondSixteenThousand) {
+  for (const std::uint32_t wrong : {0u, 16385u}) {
+    for (const bool high : {false, true}) {
+      Wall scene;
+      (high ? scene.options.height : scene.options.width) = wrong;
+      const Status status = draw_picture(scene.scene, scene.geometry, scene.maps, scene.options, {}, scene.arena(), {});
+      EXPECT_EQ(status.code, StatusCode::kUsage);
+    }
+  }
+}
+
+// But those of a polygon keep theirs: the first carries the map of all (map_plane.h).
+TEST(Picture, DoesNotDependOnTheOrderOfPolygons) {
   Wall scene;
   std::mt19937 random(9);
   for (float& e : scene.direct_lx) e = static_cast<float>(random() % 1500);
@@ -192,7 +204,11 @@ TEST(Picture, DoesNotDependOnTheOrderOfTriangles) {
   scene.options.antialias = 4;
   const std::vector<std::uint8_t> rgb = scene.draw(scene.options);
   for (int turn = 0; turn < 3; ++turn) {
-    for (std::size_t k = scene.drawn.size(); k-- > 1;) std::swap(scene.drawn[k], scene.drawn[random() % (k + 1)]);
+    for (std::size_t k = scene.drawn.size() / 2; k-- > 1;) {
+      const std::size_t other = random() % (k + 1);
+      std::swap(scene.drawn[2 * k], scene.drawn[2 * other]);
+      std::swap(scene.drawn[2 * k + 1], scene.drawn[2 * other + 1]);
+    }
     EXPECT_EQ(scene.draw(scene.options), rgb);
   }
 }
