@@ -52,8 +52,8 @@ void plan_light(const Model& model, MemoryPlan& plan) {
   const std::uint64_t links = link_bytes(scene, model.geometry, options);
   plan.add("surfaces", "12 a node + 32 blocks + 33 meshes (9 with blocks) + 3,716; their geometry is found again",
            surfaces, kAmbient);
-  plan.add("which nodes are linked", "2 n a level of blocks; with blocks 20 a node + 4 blocks + 32 meshes + 12,288 + "
-           "17 facets", links, kAmbient);
+  plan.add("which nodes are linked", "2 n a level of blocks; with blocks 20 a node + 4 blocks + 32 meshes + 39 "
+           "facets (24 of them in steps of 64)", links, kAmbient);
   plan.add("solution", "16 c + 8 a node (+ 2 with rules 1 and 2, 16 with 2+) + one row + the coarse correction; "
            "rows: what is left", ambient - result - surfaces - links, kAmbient);
   plan.add("direct light of the sub-patches", "(4 c + 1) s; spare: given up to the rows", direct_sub_patch_bytes(scene),

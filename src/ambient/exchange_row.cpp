@@ -82,7 +82,7 @@ void compute_row(const Surfaces& surfaces, const Sparsity& sparsity, LinkWalk& w
   NodeGeometry own;
   const RowSide side = row_side(surfaces, i, own);
   if (options.rules.blocks) {
-    BlockJudge judge(surfaces, options, tools, intersector);
+    BlockJudge judge(surfaces, options, walk, tools, intersector);
     walk.visit(
         side, [&](const RowSide& from, std::uint32_t j) { return judge.judge(from, j); },
         [&](std::uint32_t j) {
