@@ -80,14 +80,17 @@ std::uint32_t FacetMasks::cut(const LatticeBox& a, const LatticeBox& b, Rows* ro
 }
 
 void FacetMasks::gather(std::span<const Rows> pieces, std::uint32_t first, std::span<std::uint32_t> near) const {
-  for (std::uint32_t& word : near) word = 0;
-  for (const Rows& piece : pieces) {
+  const auto combine = [&](const Rows& piece, auto put) {
     const std::uint32_t *a = piece.row[0] + first, *b = piece.row[1] + first, *c = piece.row[2] + first;
     const std::uint32_t *d = piece.row[3] + first, *e = piece.row[4] + first, *f = piece.row[5] + first;
     for (std::size_t k = 0; k < near.size(); k += 2) {
-      near[k] |= a[k] & b[k] & c[k] & d[k] & e[k] & f[k];
-      near[k + 1] |= a[k + 1] & b[k + 1] & c[k + 1] & d[k + 1] & e[k + 1] & f[k + 1];
+      put(near[k], a[k] & b[k] & c[k] & d[k] & e[k] & f[k]);
+      put(near[k + 1], a[k + 1] & b[k + 1] & c[k + 1] & d[k + 1] & e[k + 1] & f[k + 1]);
     }
+  };
+  combine(pieces[0], [](std::uint32_t& to, std::uint32_t word) { to = word; });
+  for (const Rows& piece : pieces.subspan(1)) {
+    combine(piece, [](std::uint32_t& to, std::uint32_t word) { to |= word; });
   }
 }
 
