@@ -112,7 +112,7 @@ PartText plan_part_text(PlanPart part) {
       {"surfaces", "12 a node + 32 blocks + 33 meshes (9 with blocks) + 3,716; their geometry is found again"},
       {"which nodes are linked",
        "2 n a level of blocks; with blocks 20 a node + 4 blocks + "
-       "32 meshes + 12,288 + 17 facets"},
+       "32 meshes + 39 facets (24 of them in steps of 64)"},
       {"solution",
        "16 c + 8 a node (+ 2 with rules 1 and 2, 16 with 2+) + one "
        "row + the coarse correction; rows: what is left"},
