@@ -1,7 +1,5 @@
 #include "memory_plan.h"
 
-#include <iterator>
-
 #include "ambient/ambient_memory.h"
 #include "ambient/coloured_panes.h"
 #include "ambient/surfaces.h"
@@ -124,7 +122,7 @@ PartText plan_part_text(PlanPart part) {
       {"spreading over a mesh", "9 a patch + 8 a row of sub-patches, of the largest mesh"},
       {"drawing, or placing again", "2 c s + 8193 + (4 c + 3) width + 4 rows + 10 drawn + 208 active triangles"},
   };
-  static_assert(std::size(kTexts) == static_cast<std::size_t>(PlanPart::kDrawing) + 1);
+  static_assert(sizeof kTexts / sizeof(PartText) == static_cast<std::size_t>(PlanPart::kDrawing) + 1);
   return kTexts[static_cast<std::size_t>(part)];
 }
 
