@@ -57,7 +57,6 @@ TEST(Load, RowsOfMoreThan65535ColumnsAreReached) {
   if (!thorough()) GTEST_SKIP() << "make load";
   Options options;
   options.rules.blocks = true;
-  options.rules.blocks_error = 1e-4;  // blocks at their default lose 1.6 % of the light here
   FullRun run(room(111), options);
   ASSERT_TRUE(run.done()) << run.status.message;
   EXPECT_GT(run.patches(), 65536u);
@@ -69,7 +68,8 @@ TEST(Load, RowsOfMoreThan65535ColumnsAreReached) {
     all += run.model().patches[i].area * run.total(i);
   }
   EXPECT_NEAR(flux / (400 * M_PI), 1, 1e-3);
-  EXPECT_NEAR(all * 0.5 / flux, 1, 0.01);
+  // Blocks lose 1.6 % of it in a bare room (doc/rules.md: up to 5 %); a lost column of blocks would be more.
+  EXPECT_NEAR(all * 0.5 / flux, 1, 0.03);
 }
 
 TEST(Load, AGapOf70000DroppedColumnsIsStored) {
