@@ -1,5 +1,6 @@
-# shodo: `make` builds build/shodo. Other targets: rooms, pictures, report, test, hard, stability, load, check-same-bytes,
-# fuzz, soak, mutants, machines, workstation, scaling, memory-cost, check-budgets, install, install-needs, clean.
+# shodo: `make` builds build/shodo. Other targets: rooms, pictures, report, test, hard, stability, load, coverage,
+# check-same-bytes, fuzz, soak, mutants, machines, workstation, scaling, memory-cost, check-budgets, install,
+# install-needs, clean.
 #
 # Settings, on the command line of make:
 #   CXX=clang++ OPT=-O0   another compiler or optimisation; what was built with other flags is built again
@@ -118,6 +119,17 @@ stability: $(BUILD)/tests
 load: $(BUILD)/shodo $(BUILD)/tests
 	SHODO_HARD=all $(BUILD)/tests --gtest_filter='Load.*:Metamorphic.*'
 
+# The library with counters, the tests as they are: out/coverage.txt.
+COVERED_OBJECTS = $(patsubst %.cpp,$(BUILD)/coverage/objects/%.o,$(LIBRARY_SOURCES))
+$(COVERED_OBJECTS): $(BUILD)/coverage/objects/%.o: %.cpp $(BUILD)/flags.stamp
+	@mkdir -p $(@D)
+	$(CXX) $(LIBRARY_FLAGS) $(CXXFLAGS) --coverage -MMD -MP -c $< -o $@
+$(BUILD)/coverage/tests: $(COVERED_OBJECTS) $(BUILD)/tests
+	$(CXX) $(OPT) $(CXXFLAGS) $(LDFLAGS) --coverage $(TEST_LINK) $(TEST_OBJECTS) $(PROGRAM_PARTS) $(COVERED_OBJECTS) \
+	  -lgtest_main -lgtest -lpthread -o $@
+coverage: $(BUILD)/shodo $(BUILD)/coverage/tests
+	@BUILD=$(BUILD) sh tools/coverage
+
 # Only the comparison of compilers and optimisation levels; part of `make test`.
 check-same-bytes:
 	@sh tests/same_bytes
@@ -177,8 +189,8 @@ clean:
 	rm -rf $(BUILD) $(OUT)
 
 FORCE:
-.PHONY: all rooms pictures report test hard stability load check-same-bytes fuzz soak mutants machines workstation scaling \
-  memory-cost check-budgets install install-needs clean FORCE
+.PHONY: all rooms pictures report test hard stability load coverage check-same-bytes fuzz soak mutants machines workstation \
+  scaling memory-cost check-budgets install install-needs clean FORCE
 .SECONDARY:
 
--include $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(TEST_OBJECTS:.o=.d)
+-include $(COVERED_OBJECTS:.o=.d) $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(TEST_OBJECTS:.o=.d)

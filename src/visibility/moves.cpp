@@ -14,8 +14,8 @@ namespace shodo {
 namespace {
 
 constexpr int kPasses = 8;
-/// Lattice steps that a vertex moves in all, in each coordinate: as many as one move takes at most. Beside a strip as thin
-/// as that, whose plane turns with every move, two vertices would chase each other.
+/// Lattice steps that a vertex moves in all, in each coordinate: as many as one move takes at most. Beside a strip as
+/// thin as that, whose plane turns with every move, two vertices would chase each other.
 constexpr std::int64_t kMost = 8;
 
 /// The side of the plane on which the site has to be, or on the plane: +1, -1, or 0 if it may stay where it is.

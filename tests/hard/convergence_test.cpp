@@ -1,16 +1,16 @@
-// How fast errors fall with patches, segments and tolerance: orders of convergence, fitted over a sweep, on scenes whose
-// answers are known in closed form; and that the solver's bound is never below the true error.
+// How fast errors fall with patches, segments and tolerance: orders of convergence, fitted over a sweep, on scenes
+// whose answers are known in closed form; and that the solver's bound is never below the true error.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "tests/ambient/ambient_scene.h"
 #include "hard/hard_case.h"
 #include "hard/run.h"
 #include "hard/scene_text.h"
 #include "support/closed_factors.h"
 #include "support/eliminated.h"
+#include "tests/ambient/ambient_scene.h"
 
 namespace shodo::hard {
 namespace {
@@ -80,8 +80,8 @@ TEST(Convergence, InASphereAmbientLightIsUniformToTheSquareOfThePatchSize) {
   EXPECT_LT(errors.back(), 0.02);
 }
 
-/// Of a floor 2 x 2 of reflectance rho under an isotropic light of 1 cd at (0, 0, h): the illuminance at (x, y, top) of a
-/// ceiling, by a rule of 200 x 200 points, right to 1e-8.
+/// Of a floor 2 x 2 of reflectance rho under an isotropic light of 1 cd at (0, 0, h): the illuminance at (x, y, top) of
+/// a ceiling, by a rule of 200 x 200 points, right to 1e-8.
 double from_floor(double x, double y, double top, double h) {
   constexpr int kPoints = 200;
   double sum = 0;
@@ -188,16 +188,16 @@ TEST(Convergence, TheErrorFollowsTheToleranceAndTheBoundIsNeverBelowIt) {
   // Hard scenes, all reflectances, all tolerances: against elimination of the stored system in long double.
   const std::string box = box_walls(4, 3, 2.5, 3, 2, 3, "white");
   const std::string corridor = box_walls(1, 1, 30, 1, 1, 12, "white");
-  const std::string scenes[] = {
-      box,
-      corridor,
-      box + "object plates\nquad white 1 1 1  2 1 1  2 2 1  1 2 1 patches 2 2 sub 1 1\n"
-            "quad white 1 1 1.001  1 2 1.001  2 2 1.001  2 1 1.001 patches 2 2 sub 1 1\n",
-      sphere(5, 0.5).substr(grey(0.5).size()),
-      "object open\nquad white 0 0 0  1 0 0  1 1 0  0 1 0 patches 5 5 sub 1 1\n"
-      "quad white 0 0 0  0 0 1  1 0 1  1 0 0 patches 5 5 sub 1 1\n",
-      "object strips\nquad white 0 0 0  1 0 0  1 1 0  0 1 0 patches 40 1 sub 1 1\n"
-      "quad white 0 0 1e-3  0 1 1e-3  1 1 1e-3  1 0 1e-3 patches 1 40 sub 1 1\n"};
+  const std::string scenes[] = {box,
+                                corridor,
+                                box +
+                                    "object plates\nquad white 1 1 1  2 1 1  2 2 1  1 2 1 patches 2 2 sub 1 1\n"
+                                    "quad white 1 1 1.001  1 2 1.001  2 2 1.001  2 1 1.001 patches 2 2 sub 1 1\n",
+                                sphere(5, 0.5).substr(grey(0.5).size()),
+                                "object open\nquad white 0 0 0  1 0 0  1 1 0  0 1 0 patches 5 5 sub 1 1\n"
+                                "quad white 0 0 0  0 0 1  1 0 1  1 0 0 patches 5 5 sub 1 1\n",
+                                "object strips\nquad white 0 0 0  1 0 0  1 1 0  0 1 0 patches 40 1 sub 1 1\n"
+                                "quad white 0 0 1e-3  0 1 1e-3  1 1 1e-3  1 0 1e-3 patches 1 40 sub 1 1\n"};
   std::vector<double> tolerances, worst;
   std::uint32_t sweeps = 0, slow = 0;
   for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8}) {
@@ -212,13 +212,12 @@ TEST(Convergence, TheErrorFollowsTheToleranceAndTheBoundIsNeverBelowIt) {
         const Statistics counted = scene.statistics;
         const double error = true_error(scene);
         EXPECT_LE(error, counted.solution_bound + 1e-15) << rho << ", " << tolerance << ": " << text.substr(0, 30);
-        if (text.find("strips") != std::string::npos || text == corridor) {
-          slow = std::max(slow, counted.sweeps);
-          continue;
-        }
         EXPECT_LE(counted.solution_bound, std::max(tolerance, 1e-9)) << rho;
-        EXPECT_LT(counted.sweeps, 60u) << rho << ", " << tolerance;
-        sweeps = std::max(sweeps, counted.sweeps);
+        // Along a corridor and between plates a thousandth apart, crosswise in strips, light goes round in ways that
+        // one value a mesh can't represent: over-relaxation takes them, not as fast.
+        const bool slowly = text.find("strips") != std::string::npos || text == corridor;
+        EXPECT_LT(counted.sweeps, !slowly ? 60u : tolerance >= 1e-4 ? 200u : 600u) << rho << ", " << tolerance;
+        (slowly ? slow : sweeps) = std::max(slowly ? slow : sweeps, counted.sweeps);
         largest = std::fmax(largest, error);
       }
     }

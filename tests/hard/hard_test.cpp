@@ -42,7 +42,8 @@ class HardTable : public testing::Test {
       const CaseResult& result = results()[static_cast<std::size_t>(hard.number) - 1];
       std::printf("%2d  %-41s %-8s %10.3g  %s\n", hard.number, hard.name, word(result.outcome), result.figure,
                   result.sentence.c_str());
-      csv << hard.number << ',' << hard.name << ',' << word(result.outcome) << ',' << say("%.6g", result.figure) << '\n';
+      csv << hard.number << ',' << hard.name << ',' << word(result.outcome) << ',' << say("%.6g", result.figure)
+          << '\n';
     }
   }
 

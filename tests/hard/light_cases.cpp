@@ -13,8 +13,8 @@ CaseResult light_on_surface() {
   const struct {
     Vec3 at, inwards;
     int walls;  // that it lies on
-  } places[] = {{{0.7, 0.9, 2}, {0, 0, -1}, 1},  {{0.7, 0, 2}, {0, 1, -1}, 2}, {{0, 0, 2}, {1, 1, -1}, 3},
-                {{2, 1, 1}, {-1, 0, 0}, 1},      {{2, 0, 1}, {-1, 1, 0}, 2},   {{2, 2, 2}, {-1, -1, -1}, 3},
+  } places[] = {{{0.7, 0.9, 2}, {0, 0, -1}, 1}, {{0.7, 0, 2}, {0, 1, -1}, 2}, {{0, 0, 2}, {1, 1, -1}, 3},
+                {{2, 1, 1}, {-1, 0, 0}, 1},     {{2, 0, 1}, {-1, 1, 0}, 2},   {{2, 2, 2}, {-1, -1, -1}, 3},
                 {{0.3, 1.2, 0}, {0, 0, 1}, 1}};
   for (const auto& place : places) {
     for (const double angle : {0.0, 0.1, 1.3}) {
@@ -36,17 +36,20 @@ CaseResult light_on_surface() {
       for (std::uint32_t i = 0; i < run.mesh(6).first_patch; ++i) flux += run.model().patches[i].area * run.e0(i);
       const double expected = 400 * M_PI / (1 << place.walls);
       found.worst(relative(flux, expected));
-      found.demand(relative(flux, expected) < 0.01, say("the flux into its own room, turned by %g: %g", angle, flux / expected));
+      found.demand(relative(flux, expected) < 0.01,
+                   say("the flux into its own room, turned by %g: %g", angle, flux / expected));
       for (std::uint32_t i = 0; i < run.mesh(6).first_patch; ++i) {
         // A hair in front of its own walls it would send them half its flux; on them it sends them nothing.
         if (run.e0(i) < 1e-6 * run.largest()) continue;
         const double off = std::fabs(run.e0(i) - before.e0(i));
-        found.demand(off < 1e-3 * before.largest() || off < 0.01 * before.e0(i), say("as if in front, turned by %g", angle));
+        found.demand(off < 1e-3 * before.largest() || off < 0.01 * before.e0(i),
+                     say("as if in front, turned by %g", angle));
       }
     }
   }
-  return found.result("largest relative error of the flux from a light on a ceiling, an edge, a corner, a common wall; the "
-                      "next room is 0");
+  return found.result(
+      "largest relative error of the flux from a light on a ceiling, an edge, a corner, a common wall; the "
+      "next room is 0");
 }
 
 CaseResult light_in_plane() {
@@ -96,7 +99,8 @@ CaseResult light_on_sample() {
       found.worst(most);
       found.demand(flux <= 400 * M_PI * 1.01, say("no more flux than the light has at %g", height));
       // In the floor's plane it sends the floor nothing at all.
-      if (height > 1e-12) found.demand(run.model().statistics.lights_clamped > 0, say("clamped and reported at %g", height));
+      if (height > 1e-12)
+        found.demand(run.model().statistics.lights_clamped > 0, say("clamped and reported at %g", height));
     }
   }
   return found.result("lux at most with a light of 100 cd on a sample or a hair above; finite, clamped, counted");
@@ -124,8 +128,9 @@ CaseResult window_grid() {
     const double cosine = 1 / std::sqrt(1 + slant * slant * 1.36);
     const double lit = run.mean(0) / (1000 * cosine), open = 0.7 * 0.7;
     found.worst(relative(lit, open));
-    found.demand(relative(lit, open) < 0.02,
-                 say("the sunlit fraction within 2 %% of the open one with 3 x %d sub-patches: %g", counts, lit / open));
+    found.demand(
+        relative(lit, open) < 0.02,
+        say("the sunlit fraction within 2 %% of the open one with 3 x %d sub-patches: %g", counts, lit / open));
   }
   return found.result("relative error of the sunlit fraction of a floor behind 50 x 50 bars");
 }

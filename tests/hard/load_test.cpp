@@ -57,7 +57,6 @@ TEST(Load, RowsOfMoreThan65535ColumnsAreReached) {
   if (!thorough()) GTEST_SKIP() << "make load";
   Options options;
   options.rules.blocks = true;
-  options.rules.blocks_error = 0.02;
   FullRun run(room(111), options);
   ASSERT_TRUE(run.done()) << run.status.message;
   EXPECT_GT(run.patches(), 65536u);
@@ -69,7 +68,8 @@ TEST(Load, RowsOfMoreThan65535ColumnsAreReached) {
     all += run.model().patches[i].area * run.total(i);
   }
   EXPECT_NEAR(flux / (400 * M_PI), 1, 1e-3);
-  EXPECT_NEAR(all * 0.5 / flux, 1, 0.01);
+  // Blocks lose 1.6 % of it in a bare room (doc/rules.md: up to 5 %); a lost column of blocks would be more.
+  EXPECT_NEAR(all * 0.5 / flux, 1, 0.03);
 }
 
 TEST(Load, AGapOf70000DroppedColumnsIsStored) {
@@ -130,8 +130,9 @@ TEST(Load, ManyPolygonsBelowAPixelAreDrawn) {
   for (int j = 0; j <= cells; ++j) {
     for (int i = 0; i <= cells; ++i) text += " " + number(i / 256.0) + " " + number((cells - j) / 256.0) + " 0";
   }
-  text += "\nsub sheet 1 1\nlight l sun towards 0 0 -1 illuminance 1000\n"
-          "camera eye eye 0.2 0.2 3 look 0.2 0.2 0 up 0.1 1 0 fov 50\n";
+  text +=
+      "\nsub sheet 1 1\nlight l sun towards 0 0 -1 illuminance 1000\n"
+      "camera eye eye 0.2 0.2 3 look 0.2 0.2 0 up 0.1 1 0 fov 50\n";
   Options options = small_picture(50, 50);
   options.rules.blocks = true;
   FullRun run(text, options);

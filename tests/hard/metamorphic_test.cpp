@@ -1,7 +1,8 @@
 // What must not change when a scene is written, placed or cut in another way, and to how many digits.
 //
 // To the bit: the order of objects and polygons (patches, maps and picture), exact shifts, scale by powers of two
-// (E of point lights times 1 / s^2), an object that is hidden, black and far, but within the scene's box. To 1e-12 of the largest E, with
+// (E of point lights times 1 / s^2), an object that is hidden, black and far, but within the scene's box. To 1e-12 of
+// the largest E, with
 // --tolerance 1e-13 --row-values 64: rotation by 90 degrees, mirroring, splitting a polygon along its patches.
 // Shadows are decided on the lattice, which maps on itself under all of these.
 #include <gtest/gtest.h>
@@ -68,7 +69,8 @@ TEST(Metamorphic, TheOrderOfObjectsAndPolygonsChangesNoBit) {
   const std::vector<std::uint8_t> pixels = Variant().run->picture();
   for (std::uint64_t seed = 1; seed <= (thorough() ? 40 : 4); ++seed) {
     Variant shuffled({}, false, seed);
-    EXPECT_TRUE(same_bits(shuffled.patches, plain().patches)) << seed << ": " << difference(plain().patches, shuffled.patches);
+    EXPECT_TRUE(same_bits(shuffled.patches, plain().patches))
+        << seed << ": " << difference(plain().patches, shuffled.patches);
     EXPECT_EQ(shuffled.run->picture(), pixels);
   }
 }
@@ -119,9 +121,21 @@ TEST(Metamorphic, ScaleByPowersOfTwoChangesNoBitButThePointLights) {
 }
 
 TEST(Metamorphic, RotationBy90DegreesKeepsTwelveDigits) {
-  const Map turns[] = {[](const Vec3& v) { return Vec3{-v.y, v.x, v.z}; }, [](const Vec3& v) { return Vec3{v.x, -v.z, v.y}; },
-                       [](const Vec3& v) { return Vec3{v.z, v.y, -v.x}; }, [](const Vec3& v) { return Vec3{v.y, v.z, v.x}; },
-                       [](const Vec3& v) { return Vec3{-v.x, -v.y, v.z}; }};
+  const Map turns[] = {[](const Vec3& v) {
+                         return Vec3{-v.y, v.x, v.z};
+                       },
+                       [](const Vec3& v) {
+                         return Vec3{v.x, -v.z, v.y};
+                       },
+                       [](const Vec3& v) {
+                         return Vec3{v.z, v.y, -v.x};
+                       },
+                       [](const Vec3& v) {
+                         return Vec3{v.y, v.z, v.x};
+                       },
+                       [](const Vec3& v) {
+                         return Vec3{-v.x, -v.y, v.z};
+                       }};
   for (const Map& map : turns) {
     const double error = difference(plain().patches, Variant(map).patches);
     EXPECT_GE(error, 0);
@@ -130,8 +144,16 @@ TEST(Metamorphic, RotationBy90DegreesKeepsTwelveDigits) {
 }
 
 TEST(Metamorphic, MirroringKeepsTwelveDigits) {
-  const Map mirrors[] = {[](const Vec3& v) { return Vec3{-v.x, v.y, v.z}; }, [](const Vec3& v) { return Vec3{v.x, v.y, -v.z}; },
-                         [](const Vec3& v) { return Vec3{v.y, v.x, v.z}; }, [](const Vec3& v) { return -1.0 * v; }};
+  const Map mirrors[] = {[](const Vec3& v) {
+                           return Vec3{-v.x, v.y, v.z};
+                         },
+                         [](const Vec3& v) {
+                           return Vec3{v.x, v.y, -v.z};
+                         },
+                         [](const Vec3& v) {
+                           return Vec3{v.y, v.x, v.z};
+                         },
+                         [](const Vec3& v) { return -1.0 * v; }};
   for (const Map& map : mirrors) {
     const double error = difference(plain().patches, Variant(map, true).patches);
     EXPECT_GE(error, 0);

@@ -14,17 +14,17 @@ namespace {
 
 struct Seen {
   std::uint64_t samples = 0;
-  std::uint64_t wrong = 0;    // other than the twin's
+  std::uint64_t wrong = 0;  // other than the twin's
   std::uint64_t covered = 0;
   std::uint64_t of_mesh = 0;  // of the meshes asked for
 };
 
 /// Every `every`-th sample of a camera's picture against the 128-bit twin; meshes from `first_mesh` on are counted.
-Seen against_twin(const FullRun& run, std::size_t camera, std::uint32_t width, std::uint32_t height, std::uint32_t antialias,
-                  std::uint32_t every = 1, std::uint32_t first_mesh = kNone) {
+Seen against_twin(const FullRun& run, std::size_t camera, std::uint32_t width, std::uint32_t height,
+                  std::uint32_t antialias, std::uint32_t every = 1, std::uint32_t first_mesh = kNone) {
   const Model& model = run.model();
-  const SampleGrid grid =
-      sample_grid(view_of(model.scene.cameras[camera], model.geometry.lattice, width, height), width, height, antialias);
+  const SampleGrid grid = sample_grid(view_of(model.scene.cameras[camera], model.geometry.lattice, width, height),
+                                      width, height, antialias);
   const PictureTwin twin(model.scene, model.geometry, grid);
   std::vector<std::uint64_t> memory(std::size_t{8} << 20);
   Arena arena(memory.data(), memory.size() * 8);
@@ -35,7 +35,8 @@ Seen against_twin(const FullRun& run, std::size_t camera, std::uint32_t width, s
     std::vector<TwinHit> seen(grid.columns);
     lines.begin_row(y);
     for (VisibleSpan span; lines.next(span);) {
-      for (std::int32_t x = span.x0; x < span.x1; ++x) seen[static_cast<std::uint32_t>(x)] = {span.triangle, span.front};
+      for (std::int32_t x = span.x0; x < span.x1; ++x)
+        seen[static_cast<std::uint32_t>(x)] = {span.triangle, span.front};
     }
     for (std::uint32_t x = y % every; x < grid.columns; x += every) {
       ++result.samples;
@@ -159,7 +160,7 @@ CaseResult nonplanar_quad() {
     for (int j = 0; j < 4; ++j) scene.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1), 3, 2);
   }
   scene.object("dart");
-  scene.quad({3, 0, 0}, {3.5, 0.6, 0}, {4, 0, 0}, {3.5, 2, 0}, 2, 2);   // the concave corner is the second
+  scene.quad({3, 0, 0}, {3.5, 0.6, 0}, {4, 0, 0}, {3.5, 2, 0}, 2, 2);  // the concave corner is the second
   scene.quad({3, 0, 0}, {3.5, -0.2, 0}, {4, 0, 0}, {3.5, 0.6, 0}, 2, 2);
   scene.point_light({2, 1, 4}, 300);
   scene.camera("above", {1.9, 1, 5}, {2, 1, 0}, {0, 1, 0}, 50);
@@ -190,8 +191,9 @@ CaseResult nonplanar_quad() {
   found.demand(relative(area, 0.7) < 1e-12, say("the dart's area: %g", area));
   const FullRun bow("shodo 1\nmaterial white diffuse 0.5\nobject o\nquad white 0 0 0  1 1 0  1 0 0  0 1 0\n");
   found.demand(bow.status.code == StatusCode::kScene && bow.status.line == 4, "a bow-tie refused with its line");
-  return found.result("samples of saddles and a concave quad that differ from the twin; no holes; a bow-tie is refused with "
-                      "its line");
+  return found.result(
+      "samples of saddles and a concave quad that differ from the twin; no holes; a bow-tie is refused with "
+      "its line");
 }
 
 CaseResult huge_polygon() {
@@ -201,8 +203,8 @@ CaseResult huge_polygon() {
     SceneText scene;
     scene.material("white", 0.5);
     scene.object("ground");
-    scene.quad({-3 * size, -3 * size, -1}, {3 * size, -3 * size, -1}, {3 * size, 3 * size, -1}, {-3 * size, 3 * size, -1},
-               4, 4, 1);
+    scene.quad({-3 * size, -3 * size, -1}, {3 * size, -3 * size, -1}, {3 * size, 3 * size, -1},
+               {-3 * size, 3 * size, -1}, 4, 4, 1);
     scene.object("room");
     scene.room({0, 0, 0}, {6, 4, 3}, 2, 1);
     scene.point_light({2, 2, 2}, 100);
@@ -217,8 +219,7 @@ CaseResult huge_polygon() {
     found.demand(inside.covered == inside.samples, "a closed room from inside");
     // The ground once, on every sample that looks at it.
     const Model& model = run.model();
-    const SampleGrid grid =
-        sample_grid(view_of(model.scene.cameras[0], model.geometry.lattice, 90, 70), 90, 70, 1);
+    const SampleGrid grid = sample_grid(view_of(model.scene.cameras[0], model.geometry.lattice, 90, 70), 90, 70, 1);
     const PictureTwin twin(model.scene, model.geometry, grid);
     for (std::uint32_t y = 0; y < 70; y += 3) {
       for (std::uint32_t x = 0; x < 90; x += 3) {
@@ -259,8 +260,9 @@ CaseResult subpixel_polygons() {
       text += "quad white " + l + " " + l + " 0 " + h + " " + l + " 0 " + h + " " + h + " 0 " + l + " " + h +
               " 0 patches 1 1\n";
     }
-    return text + "sub sheet 1 1\nlight l sun towards 0 0 -1 illuminance 1000\n"
-                  "camera eye eye 0.01 0.02 4 look 0 0 0 up 0.1 1 0 fov 60\n";
+    return text +
+           "sub sheet 1 1\nlight l sun towards 0 0 -1 illuminance 1000\n"
+           "camera eye eye 0.01 0.02 4 look 0 0 0 up 0.1 1 0 fov 60\n";
   };
   Options options = small_picture(40, 30);
   options.rules.blocks = true;
@@ -281,7 +283,8 @@ CaseResult subpixel_polygons() {
   }
   found.worst(cells * cells);
   found.demand(covered > 0, "covered pixels");
-  return found.result("quads in a sheet, each far below a pixel: each sample covered exactly once, the picture of one quad");
+  return found.result(
+      "quads in a sheet, each far below a pixel: each sample covered exactly once, the picture of one quad");
 }
 
 CaseResult coords_65k() {
@@ -322,7 +325,8 @@ CaseResult shared_edge_sheet() {
     struct Three {
       LatticePoint p[3];
     };
-    std::vector<Three> sheet{{{{-64, -64, 0}, {64, -64, 0}, {64, 64, 0}}}, {{{-64, -64, 0}, {64, 64, 0}, {-64, 64, 0}}}};
+    std::vector<Three> sheet{{{{-64, -64, 0}, {64, -64, 0}, {64, 64, 0}}},
+                             {{{-64, -64, 0}, {64, 64, 0}, {-64, 64, 0}}}};
     const auto twice_area = [](const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
       return cross(b - a, c - a).z;
     };

@@ -37,7 +37,8 @@ CaseResult far_origin() {
     SceneText moved([=](const Vec3& v) { return v + Vec3{far, -far, far}; });
     furnish(moved);
     FullRun run(moved.text(), to_the_last_digits());
-    found.demand(run.done() && run.bits() == bits && run.picture() == pixels, say("every bit of the unmoved run at %g", far));
+    found.demand(run.done() && run.bits() == bits && run.picture() == pixels,
+                 say("every bit of the unmoved run at %g", far));
   }
   // Not exact, the bare box: what the file's own digits leave is all that is lost. (With something in it that casts
   // shadows, samples round to other lattice points, and a form factor may change by one segment in 64.)
@@ -54,7 +55,8 @@ CaseResult far_origin() {
     const FullRun run(bare(far), to_the_last_digits());
     const double error = difference(reference, run);
     // A coordinate is off by far 2^-53; edges of a twelfth, and the light a sixth away, magnify it.
-    found.demand(run.done() && error >= 0 && error < 1e-12 + far * 1e-14, say("the file's own rounding at %g: %g", far, error));
+    found.demand(run.done() && error >= 0 && error < 1e-12 + far * 1e-14,
+                 say("the file's own rounding at %g: %g", far, error));
     if (far == 1e6) found.worst(error);
   }
   found.demand(found.figure() < 1e-6, "1e-6 at 1e6");
@@ -110,8 +112,9 @@ CaseResult scaled() {
       }
     }
   }
-  return found.result("largest relative change of E (times s^2 for a point light) at scales 1e-6 to 1e6; 0 at powers of "
-                      "two");
+  return found.result(
+      "largest relative change of E (times s^2 for a point light) at scales 1e-6 to 1e6; 0 at powers of "
+      "two");
 }
 
 CaseResult mirror_symmetry() {

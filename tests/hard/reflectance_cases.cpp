@@ -1,10 +1,10 @@
 // Hard cases of reflectance and energy: 1, 2, 26, 27, 28, 29.
 #include <cmath>
 
-#include "tests/ambient/ambient_scene.h"
 #include "hard/hard_case.h"
 #include "hard/run.h"
 #include "hard/scene_text.h"
+#include "tests/ambient/ambient_scene.h"
 
 namespace shodo::hard {
 
@@ -28,16 +28,19 @@ CaseResult rho_to_1() {
         const double error = std::fabs(scene.total(i) * (1 - rho) - 1);
         found.worst(error);
         found.demand(error <= row_error * rho / (1 - rho) * 1.01 + bound * 1.01 + 1e-12,
-                     say("E within the row sums' error times rho / (1 - rho) and the solver's bound at %g: %g, rows %g, bound %g", rho, error,
-                         row_error, bound));
+                     say("E within the row sums' error times rho / (1 - rho) and the solver's bound at %g: %g, rows "
+                         "%g, bound %g",
+                         rho, error, row_error, bound));
       }
       found.demand(bound <= std::fmax(tolerance, 1e-9), say("a bound within the tolerance at %g", rho));
       sweeps = std::max(sweeps, counted.sweeps);
     }
   }
   found.demand(sweeps > 0 && sweeps < 60, "less than 60 sweeps, reported");
-  return found.result(say("largest error of E at rho 0 to 0.9999, within the rows' and the solver's bound; at most %u "
-                          "sweeps", sweeps));
+  return found.result(
+      say("largest error of E at rho 0 to 0.9999, within the rows' and the solver's bound; at most %u "
+          "sweeps",
+          sweeps));
 }
 
 CaseResult rho_exactly_1() {

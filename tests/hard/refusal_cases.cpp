@@ -12,8 +12,25 @@ namespace shodo::hard {
 CaseResult bad_numbers() {
   Findings found;
   const std::string digits(400, '7');
-  const std::string bad[] = {"nan",  "NaN",   "inf", "-inf", "1e999", "-1e999", "0x1p3", "1,5",  "1.5.2", "--1", "1e",
-                             "e5",   "+",     "-",   ".",    "1_000", "$",    "1e+",  "1e99999999999999999999"};
+  const std::string bad[] = {"nan",
+                             "NaN",
+                             "inf",
+                             "-inf",
+                             "1e999",
+                             "-1e999",
+                             "0x1p3",
+                             "1,5",
+                             "1.5.2",
+                             "--1",
+                             "1e",
+                             "e5",
+                             "+",
+                             "-",
+                             ".",
+                             "1_000",
+                             "$",
+                             "1e+",
+                             "1e99999999999999999999"};
   int refusals = 0;
   for (const std::string& number : bad) {
     const std::string texts[] = {
@@ -34,26 +51,31 @@ CaseResult bad_numbers() {
     found.demand(run.status.code == StatusCode::kScene && run.status.line == 2, "a line number");
   }
   // Too large for a square: refused or finite, never infinite.
-  for (const std::string& huge : {std::string("1e308"), std::string("1e200"), std::string("1e150"), "1" + digits.substr(0, 300)}) {
+  for (const std::string& huge :
+       {std::string("1e308"), std::string("1e200"), std::string("1e150"), "1" + digits.substr(0, 300)}) {
     const FullRun run("shodo 1\nmaterial white diffuse 0.5\nobject o\nquad white 0 0 0  " + huge + " 0 0  " + huge +
-                  " 1 0  0 1 0\nlight l point at 0.5 0.5 1 intensity 100\n");
+                      " 1 0  0 1 0\nlight l point at 0.5 0.5 1 intensity 100\n");
     found.demand(run.status.code == StatusCode::kScene || (run.done() && run.sound()), huge + " refused or finite");
     refusals += run.done() ? 0 : 1;
   }
   {
-    const FullRun run("shodo 1\nmaterial white diffuse 0.5\nobject o\nquad white 0 0 0  " + digits + " 0 0  1 1 0  0 1 0\n");
+    const FullRun run("shodo 1\nmaterial white diffuse 0.5\nobject o\nquad white 0 0 0  " + digits +
+                      " 0 0  1 1 0  0 1 0\n");
     ++refusals;
-    found.demand(run.status.code == StatusCode::kScene && run.status.line == 4, "a number of 400 digits beyond 1e308 refused");
+    found.demand(run.status.code == StatusCode::kScene && run.status.line == 4,
+                 "a number of 400 digits beyond 1e308 refused");
   }
   // -0, denormals, and 400 digits that make an ordinary number are numbers.
-  for (const std::string& good : {std::string("-0"), std::string("1e-320"), std::string("5e-324"), std::string("1e-999"),
-                                 "0." + digits, digits + "e-400"}) {
-    const FullRun run("shodo 1\nmaterial white diffuse 0.5\nobject o\nquad white 0 0 " + good + "  1 0 0  1 1 0  0 1 0 patches 1 1\n"
-                  "light l point at 0.5 0.5 1 intensity 100\n");
+  for (const std::string& good : {std::string("-0"), std::string("1e-320"), std::string("5e-324"),
+                                  std::string("1e-999"), "0." + digits, digits + "e-400"}) {
+    const FullRun run("shodo 1\nmaterial white diffuse 0.5\nobject o\nquad white 0 0 " + good +
+                      "  1 0 0  1 1 0  0 1 0 patches 1 1\n"
+                      "light l point at 0.5 0.5 1 intensity 100\n");
     found.demand(run.done() && run.sound() && run.patches() == 1, good.substr(0, 20) + " taken");
   }
   found.worst(refusals);
-  return found.refused("bad numbers refused, each with its line; -0, denormals and 400 digits of an ordinary number are taken");
+  return found.refused(
+      "bad numbers refused, each with its line; -0, denormals and 400 digits of an ordinary number are taken");
 }
 
 namespace {
@@ -107,10 +129,12 @@ CaseResult patches_1e5() {
     // With the smallest memory it finishes.
     status = load("large.scn", text, {}, options, memory.get(), needed, model);
     if (status.done()) status = solve(*model, {});
-    found.demand(status.done(), say("an end in %llu bytes: %s", static_cast<unsigned long long>(needed), status.message));
+    found.demand(status.done(),
+                 say("an end in %llu bytes: %s", static_cast<unsigned long long>(needed), status.message));
     found.demand(statistics(*model).memory_peak <= needed, "within the budget");
   }
-  return found.refused("bytes that 1e5 patches need with blocks: less is refused before anything is lit, and the need told");
+  return found.refused(
+      "bytes that 1e5 patches need with blocks: less is refused before anything is lit, and the need told");
 }
 
 }  // namespace shodo::hard

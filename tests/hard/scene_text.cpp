@@ -12,7 +12,8 @@ namespace {
 
 template <class T>
 void shuffle_all(std::vector<T>& items, Random& random) {
-  for (std::size_t k = items.size(); k > 1; --k) std::swap(items[k - 1], items[random.below(static_cast<std::uint32_t>(k))]);
+  for (std::size_t k = items.size(); k > 1; --k)
+    std::swap(items[k - 1], items[random.below(static_cast<std::uint32_t>(k))]);
 }
 
 }  // namespace
@@ -27,9 +28,7 @@ Map turn(const Vec3& axis, double angle) {
   return [=](const Vec3& v) { return turned(v, axis, angle); };
 }
 
-SceneText::SceneText(Map map, bool mirrored) : map_(std::move(map)), mirrored_(mirrored) {
-  head_ = "shodo 1\n";
-}
+SceneText::SceneText(Map map, bool mirrored) : map_(std::move(map)), mirrored_(mirrored) { head_ = "shodo 1\n"; }
 
 void SceneText::material(const std::string& name, double reflectance) {
   head_ += "material " + name + " diffuse " + number(reflectance) + "\n";
@@ -99,8 +98,8 @@ void SceneText::area_light(const Vec3& a, const Vec3& b, const Vec3& c, const Ve
 }
 
 void SceneText::polyhedron(const std::string& object, double luminance) {
-  tail_ += "light l" + std::to_string(lights_++) + " polyhedron object " + object + " luminance " +
-           number(luminance) + "\n";
+  tail_ +=
+      "light l" + std::to_string(lights_++) + " polyhedron object " + object + " luminance " + number(luminance) + "\n";
 }
 
 void SceneText::camera(const std::string& name, const Vec3& eye, const Vec3& look, const Vec3& up, double fov) {

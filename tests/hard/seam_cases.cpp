@@ -138,7 +138,8 @@ CaseResult coplanar_overlap() {
       for (std::uint32_t k = 0; k < mesh.sub_patch_count(); ++k) {
         const double lux = static_cast<double>(run.model().maps.direct_lx[mesh.first_sub_patch + k]);
         found.worst(relative(lux, expected));
-        found.demand(relative(lux, expected) < 1e-5, say("the picture fully lit, turned by %g: %g", angle, lux / expected));
+        found.demand(relative(lux, expected) < 1e-5,
+                     say("the picture fully lit, turned by %g: %g", angle, lux / expected));
       }
     }
     const auto first = after.picture(), second = before.picture();
@@ -149,8 +150,9 @@ CaseResult coplanar_overlap() {
     const std::size_t middle = (std::size_t{45} * 120 + 60) * 3;
     found.demand(first[middle] > wall[middle], "the smaller polygon in front");
   }
-  return found.result("largest relative error of a picture in its wall's plane; one image for both orders, the smaller "
-                      "one is seen");
+  return found.result(
+      "largest relative error of a picture in its wall's plane; one image for both orders, the smaller "
+      "one is seen");
 }
 
 CaseResult coplanar_identical() {
@@ -188,8 +190,8 @@ CaseResult coplanar_identical() {
             const double lux = run.total(run.mesh(m).first_patch + k);
             found.worst(relative(lux, expected));
             found.demand(relative(lux, expected) < 1e-5,
-                         say("%s, turned by %g: %g", opposite ? "each lit from its own side" : "both lit the same", angle,
-                             lux / expected));
+                         say("%s, turned by %g: %g", opposite ? "each lit from its own side" : "both lit the same",
+                             angle, lux / expected));
           }
         }
         const auto own = run.picture();
@@ -219,9 +221,9 @@ CaseResult interpenetrating_boxes() {
         scene.point_light({1, -2, 3}, 1000);
         scene.sun({0.3, 0.4, -1}, 1000);
       } else {
-        scene.point_light({0.6, 1.1, 0.4}, 1e6);    // in a
-        scene.point_light({1.4, 1.1, 0.2}, 1e6);    // in both
-        scene.point_light({1.4, 1.1, -0.2}, 1e6);   // and under the floor
+        scene.point_light({0.6, 1.1, 0.4}, 1e6);   // in a
+        scene.point_light({1.4, 1.1, 0.2}, 1e6);   // in both
+        scene.point_light({1.4, 1.1, -0.2}, 1e6);  // and under the floor
       }
       return scene.text();
     };
@@ -251,9 +253,11 @@ CaseResult interpenetrating_boxes() {
         if (in_other(half) || under) {
           ++buried;
           found.worst(lux(lit));
-          found.demand(lux(lit) == 0, say("buried sub-patches 0: mesh %u at %g %g %g, turned by %g", m, p.x, p.y, p.z, angle));
+          found.demand(lux(lit) == 0,
+                       say("buried sub-patches 0: mesh %u at %g %g %g, turned by %g", m, p.x, p.y, p.z, angle));
         }
-        if (!in_other(-half)) found.demand(lux(inner) == 0, say("no light from inside: mesh %u, turned by %g", m, angle));
+        if (!in_other(-half))
+          found.demand(lux(inner) == 0, say("no light from inside: mesh %u, turned by %g", m, angle));
       }
     }
   }

@@ -18,7 +18,7 @@ struct Sweep {
   const char* y_title;
   const char* textbook;  // what it is
   std::vector<SweepPoint> (*run)();
-  double allowed;  // what ours keeps within, all along
+  double allowed;   // what ours keeps within, all along
   double from, to;  // where that is asserted
 };
 

@@ -1,10 +1,9 @@
-#include "hard/stability.h"
-
 #include <cmath>
 
 #include "hard/hard_case.h"
 #include "hard/run.h"
 #include "hard/scene_text.h"
+#include "hard/stability.h"
 #include "support/closed_factors.h"
 #include "support/eliminated.h"
 #include "tests/ambient/ambient_scene.h"
@@ -23,9 +22,8 @@ std::vector<SweepPoint> reflectance() {
       Options options;
       options.tolerance = 1e-9;
       options.scale_rows = scaled;
-      AmbientScene scene("shodo 1\nmaterial white diffuse " + number(1 - left) + "\n" +
-                             box_walls(3, 2, 1, 3, 4, 2, "white"),
-                         options);
+      AmbientScene scene(
+          "shodo 1\nmaterial white diffuse " + number(1 - left) + "\n" + box_walls(3, 2, 1, 3, 4, 2, "white"), options);
       scene.light([](const Vec3&, std::uint32_t) { return 1.0; });
       EXPECT_TRUE(scene.solve().done());
       double worst = 0;
@@ -47,7 +45,8 @@ std::vector<SweepPoint> plates() {
     Options options;
     options.scale_rows = false;
     options.row_value_bits = 64;
-    AmbientScene scene(grey(0.5) + "object a\nquad white 0 0 0  1 0 0  1 1 0  0 1 0 patches 1 1\nobject b\nquad white 0 0 " +
+    AmbientScene scene(grey(0.5) +
+                           "object a\nquad white 0 0 0  1 0 0  1 1 0  0 1 0 patches 1 1\nobject b\nquad white 0 0 " +
                            z + "  0 1 " + z + "  1 1 " + z + "  1 0 " + z + " patches 1 1\n",
                        options);
     const double f = StoredMatrix(scene).form_factor(0, 1);
@@ -112,7 +111,8 @@ std::vector<SweepPoint> walls() {
             const Vec3 from = at + scene.scene.origin;
             for (std::uint32_t quad = 0; quad < corners.size() / 4 && !hit; ++quad) {
               const Vec3* c = &corners[4 * quad];
-              hit = moller_trumbore(from, light, c[0], c[1], c[2], 1e-6) || moller_trumbore(from, light, c[0], c[2], c[3], 1e-6);
+              hit = moller_trumbore(from, light, c[0], c[1], c[2], 1e-6) ||
+                    moller_trumbore(from, light, c[0], c[2], c[3], 1e-6);
             }
             textbook += hit != blocked ? 1 : 0;
           }
@@ -229,18 +229,18 @@ std::vector<SweepPoint> slivers() {
 
 const std::vector<Sweep>& sweeps() {
   static const std::vector<Sweep> all{
-      {"reflectance", "Furnace near reflectance 1", "1 - reflectance", "relative error of E", "rows not scaled", reflectance,
-       1e-6, 0, 1e9},
-      {"plates", "Plates at a distance", "distance of unit plates", "relative error of F", "kernel between centres", plates,
-       1e-2, 0, 1e9},
+      {"reflectance", "Furnace near reflectance 1", "1 - reflectance", "relative error of E", "rows not scaled",
+       reflectance, 1e-6, 0, 1e9},
+      {"plates", "Plates at a distance", "distance of unit plates", "relative error of F", "kernel between centres",
+       plates, 1e-2, 0, 1e9},
       {"walls", "Thin walls", "thickness, of the scene's size", "part of samples that see wrong",
        "Moeller-Trumbore, epsilon 1e-6", walls, 1e-2, 0, 1e9},
-      {"scales", "Scale", "scene units per unit", "relative error", "segments with a fixed epsilon of 1e-4", scales, 1e-12, 0,
-       1e9},
+      {"scales", "Scale", "scene units per unit", "relative error", "segments with a fixed epsilon of 1e-4", scales,
+       1e-12, 0, 1e9},
       {"offsets", "Far from the origin", "offset, of the size", "relative error", "plane equation in single precision",
        offsets, 1e-5, 0, 1e9},
-      {"slivers", "Slivers", "length over width", "largest error of a row sum", "kernel between centres", slivers, 1e-2, 0,
-       1e5},
+      {"slivers", "Slivers", "length over width", "largest error of a row sum", "kernel between centres", slivers, 1e-2,
+       0, 1e5},
   };
   return all;
 }

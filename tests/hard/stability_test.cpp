@@ -1,4 +1,6 @@
 // Every sweep keeps within what doc/stability.md says. With SHODO_STABILITY=FOLDER plots and tables go there.
+#include "hard/stability.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 
 #include "cli/report_document.h"
 #include "hard/hard_case.h"
-#include "hard/stability.h"
 
 namespace shodo::hard {
 namespace {

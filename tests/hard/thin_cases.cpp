@@ -1,11 +1,11 @@
 // Hard cases of thin, flat and close things: 3, 10, 11, 17, 33, 34.
 #include <cmath>
 
-#include "tests/ambient/ambient_scene.h"
 #include "hard/hard_case.h"
 #include "hard/run.h"
 #include "hard/scene_text.h"
 #include "support/closed_factors.h"
+#include "tests/ambient/ambient_scene.h"
 
 namespace shodo::hard {
 
@@ -81,11 +81,11 @@ CaseResult zero_area() {
     scene.room({0, 0, 0}, {3, 2, 2}, 3, 2);
     if (with) {
       scene.object("nothing");
-      scene.triangle({1, 1, 1}, {1.5, 1, 1}, {2, 1, 1});                    // collinear
-      scene.triangle({1, 1, 0.5}, {1, 1, 0.5}, {1, 1, 0.5});                // a point
-      scene.triangle({1, 1, 0.5}, {1, 1, 0.5}, {1, 1.5, 0.5});              // an edge without length
-      scene.quad({1, 1, 1}, {1.25, 1, 1}, {1.5, 1, 1}, {2, 1, 1});          // collinear
-      scene.quad({1, 0.5, 1}, {2, 0.5, 1}, {2, 0.5, 1}, {1, 0.5, 1});       // there and back
+      scene.triangle({1, 1, 1}, {1.5, 1, 1}, {2, 1, 1});               // collinear
+      scene.triangle({1, 1, 0.5}, {1, 1, 0.5}, {1, 1, 0.5});           // a point
+      scene.triangle({1, 1, 0.5}, {1, 1, 0.5}, {1, 1.5, 0.5});         // an edge without length
+      scene.quad({1, 1, 1}, {1.25, 1, 1}, {1.5, 1, 1}, {2, 1, 1});     // collinear
+      scene.quad({1, 0.5, 1}, {2, 0.5, 1}, {2, 0.5, 1}, {1, 0.5, 1});  // there and back
       scene.quad({1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1});
     }
     scene.point_light({1.3, 0.9, 1.1}, 100);
@@ -158,7 +158,8 @@ struct TwoRooms {
     half(scene, 0, 2, 0);
     const bool six = cut == Cut::kSixAgainstSix;
     face(six ? 2 : 1, six ? 3 : 1, [&](double y0, double y1, double z0, double z1) {
-      lit_meshes = 1 + scene.quad({2, y0, z0}, {2, y0, z1}, {2, y1, z1}, {2, y1, z0}, 12 / (six ? 4 : 2), 12 / (six ? 4 : 2));
+      lit_meshes =
+          1 + scene.quad({2, y0, z0}, {2, y0, z1}, {2, y1, z1}, {2, y1, z0}, 12 / (six ? 4 : 2), 12 / (six ? 4 : 2));
     });
     scene.object("dark");
     const double x = 2 + thickness;
@@ -201,7 +202,8 @@ struct TwoRooms {
 CaseResult thin_wall() {
   // The scene is 5.4 across: ten decades of its size, and nothing.
   Findings found;
-  const std::vector<double> few{1e-5, 4e-6, 1e-6, 0}, many{1e-3, 1e-4, 1e-5, 8e-6, 6e-6, 4e-6, 1e-6, 1e-7, 1e-9, 1e-11, 1e-13, 0};
+  const std::vector<double> few{1e-5, 4e-6, 1e-6, 0},
+      many{1e-3, 1e-4, 1e-5, 8e-6, 6e-6, 4e-6, 1e-6, 1e-7, 1e-9, 1e-11, 1e-13, 0};
   for (const Cut cut : {Cut::kOneAgainstSix, Cut::kAlike, Cut::kOtherDiagonal, Cut::kSixAgainstSix}) {
     for (const double angle : {0.0, 0.1, 1.0}) {
       const Map map = angle == 0 ? Map{} : turn({1, 2, 3}, angle);
@@ -210,6 +212,7 @@ CaseResult thin_wall() {
       found.demand(reference.done(), "a solution");
       for (const double part : thorough() || angle == 0.1 ? many : few) {
         const TwoRooms thin(5.4 * part, cut, map);
+        std::vector<std::uint64_t> bits;
         for (const FlagMode flags : {FlagMode::kAuto, FlagMode::kOff}) {
           if (flags == FlagMode::kOff && !thorough() && part != 4e-6) continue;
           Options options;
@@ -217,6 +220,9 @@ CaseResult thin_wall() {
           const FullRun run(thin.text, options);
           found.demand(run.done() && run.sound(), "a solution");
           found.demand(run.sum(thin.lit_meshes, thin.all_meshes) == 0, say("a dark room exactly dark at %g", part));
+          // Raised samples are in the boxes that blockers are looked for in.
+          found.demand(flags == FlagMode::kAuto || run.bits() == bits, say("the same bits without flags at %g", part));
+          bits = run.bits();
           double sum = 0, of_thick = 0;
           for (std::uint32_t m = 0; m < thin.lit_meshes; ++m) {
             sum += run.mean(m);
@@ -231,8 +237,9 @@ CaseResult thin_wall() {
       }
     }
   }
-  return found.result("largest change of a lit wall's mean E from a thick wall's, thickness 1e-3 of the scene to 0, four "
-                      "cuts, turned; the dark room is 0");
+  return found.result(
+      "largest change of a lit wall's mean E from a thick wall's, thickness 1e-3 of the scene to 0, four "
+      "cuts, turned; the dark room is 0");
 }
 
 CaseResult close_plates() {
@@ -242,8 +249,8 @@ CaseResult close_plates() {
       const std::string d = number(distance), p = std::string(" patches ") + counts + " sub 1 1\n";
       Options options;
       options.scale_rows = false;
-      AmbientScene scene(grey(0.5) + "object a\nquad white 0 0 0  1 0 0  1 1 0  0 1 0" + p + "object b\nquad white 0 0 " +
-                             d + "  0 1 " + d + "  1 1 " + d + "  1 0 " + d + p,
+      AmbientScene scene(grey(0.5) + "object a\nquad white 0 0 0  1 0 0  1 1 0  0 1 0" + p +
+                             "object b\nquad white 0 0 " + d + "  0 1 " + d + "  1 1 " + d + "  1 0 " + d + p,
                          options);
       const StoredMatrix stored(scene);
       for (const double f : stored.f) found.demand(f <= 1, say("F at most 1 at %g: %g", distance, f));
@@ -259,7 +266,8 @@ CaseResult close_plates() {
       }
       const double expected = near_plates(distance);
       found.worst(relative(sum, expected));
-      found.demand(relative(sum, expected) < 0.01, say("F within 1 %% of Howell's at %g x %s: %g", distance, counts, sum));
+      found.demand(relative(sum, expected) < 0.01,
+                   say("F within 1 %% of Howell's at %g x %s: %g", distance, counts, sum));
     }
   }
   return found.result("largest relative error of F of plates 1 to 1e-5 apart, against Howell C-11; F is never above 1");
@@ -274,7 +282,8 @@ CaseResult long_corridor() {
   found.demand(scene.solve().done(), "a solution");
   double least = 2;
   for (std::size_t i = 0; i < stored.n; ++i) {
-    found.demand(stored.row_sum(i) >= 0.99 && stored.row_sum(i) <= 1 + 1e-12, say("row sums in 0.99 to 1: %g", stored.row_sum(i)));
+    found.demand(stored.row_sum(i) >= 0.99 && stored.row_sum(i) <= 1 + 1e-12,
+                 say("row sums in 0.99 to 1: %g", stored.row_sum(i)));
     least = std::fmin(least, stored.row_sum(i));
   }
   // Along each of the four long walls; to where it is as small as the solver's rounding.
@@ -293,8 +302,8 @@ CaseResult long_corridor() {
       last = lx;
     }
   }
-  return found.result(say("patches along the corridor over which E falls steadily, to 1e-9 of its largest; row sums %.6f to 1",
-                          least));
+  return found.result(
+      say("patches along the corridor over which E falls steadily, to 1e-9 of its largest; row sums %.6f to 1", least));
 }
 
 }  // namespace shodo::hard
