@@ -95,8 +95,10 @@ doc/pictures/isolux.png: SCENE = door
 doc/pictures/isolux.png: SHOWN = --isolux auto
 doc/pictures/patches.png: SCENE = stair
 doc/pictures/patches.png: SHOWN = --show patches
+doc/pictures/patches.png: PICTURE_SIZE = 320x256
+PICTURE_SIZE = 400x320
 doc/pictures/%.png: $(BUILD)/shodo $(wildcard data/*)
-	$(BUILD)/shodo render data/$(SCENE).scn -o $@ --size 400x320 $(SHOWN)
+	$(BUILD)/shodo render data/$(SCENE).scn -o $@ --size $(PICTURE_SIZE) $(SHOWN)
 doc/pictures/difference.png: $(BUILD)/shodo data/door.scn
 	@mkdir -p $(OUT)
 	$(BUILD)/shodo render data/door.scn -o $(OUT)/door.ppm --size 400x320
