@@ -1,5 +1,5 @@
 // What mirrors, glass, highlights and the background show at a sample (paper 2.4: "reflection, transmission and
-// highlights are processed"; doc/optics.md).
+// highlights are processed"; deviation D18, doc/optics.md).
 //
 // The scanlines find what a sample sees first, exactly. Where that does more than reflect diffusely, the sample's ray
 // goes on: through panes to what stands behind them, nearest first; off mirrors in the mirrored direction, up to
