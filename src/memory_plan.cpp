@@ -43,7 +43,7 @@ void plan_light(const Model& model, MemoryPlan& plan) {
   plan.add("direct light of the patches", "(8 c + 8) n", direct_patch_bytes(scene), kLight);
   plan.add("possible blockers", "32 facets + 24 boxes + 8 facets", Intersector::bytes(model.geometry, options.flags),
            kDirect | kAgain | (scene.patch_count > 0 ? kAmbient : 0));
-  plan.add("light sources", "4,096 + 112 lights + 168 faces that emit + 44 ends of segments", Sources::bytes(scene),
+  plan.add("light sources", "4,096 + 400 lights + 168 faces that emit + 44 ends of segments", Sources::bytes(scene),
            kDirect | kAgain);
   const std::uint64_t result = ambient_result_bytes(scene);
   const std::uint64_t surfaces = surfaces_bytes(scene, options, SurfacesKeep::kNothing);
