@@ -1,12 +1,13 @@
 // Faces that emit: area lights and the faces of polyhedral ones, with the points on them at which segments end (paper
 // 2.1).
 //
-// The points are fixed, so they are placed once and not for each sub-patch. A face of a polyhedron has its four Gauss
-// points, lifted above all of the polyhedron if a step or two will do, so that no facet of its own is in the way. An area light has 32 ends, eight in each quarter, for the centre of a sub-patch; its other samples look at
-// two of each quarter, the first or the second two. No two of them but mirror images share a column or a row: a shadow
-// edge along a side is met by the 32 as finely as by 16 x 16 points, along a long light's narrow side too.
-// Each set is mapped on itself by every mirror image of the face: a mirrored scene has mirrored light.
-// Bytes: 168 a face that emits, and 44 a point: 32 an area light, 4 a face of a polyhedron.
+// The points are fixed, so they are placed once and not for each sub-patch. A face of a polyhedron has its four
+// Gauss points, lifted above all of the polyhedron if a step or two will do, so that no facet of its own is in the
+// way. An area light has 32 ends, eight in each quarter, for the centre of a sub-patch; its other samples look at
+// two of each quarter, the first or the second two. No two of them but mirror images share a column or a row: a
+// shadow edge along a side is met by the 32 as finely as by 16 x 16 points, along a long light's narrow side too.
+// Each set is mapped on itself by every mirror image of the face: a mirrored scene has mirrored light. Bytes: 168 a
+// face that emits, and 44 a point: 32 an area light, 4 a face of a polyhedron.
 #pragma once
 
 #include <cstdint>

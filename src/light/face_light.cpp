@@ -2,8 +2,8 @@
 
 #include <bit>
 
+#include "light/face_leaves.h"
 #include "light/polygon_factor.h"
-#include "light/quad_cell.h"
 
 namespace shodo {
 
@@ -13,11 +13,6 @@ namespace {
 constexpr std::uint32_t kFacesAtOnce = 16;
 /// Of a sub-patch: nearer than that to a face its light is not of the third degree over it, within 1/500.
 constexpr double kNearRadii = 4;
-/// A face at a distance of less than its radius is split, until the leaves' radius is this part of theirs, or of the
-/// sub-patch's.
-constexpr double kLeafAngle = 0.35;
-constexpr double kLeafOfRadius = 0.25;
-constexpr std::uint32_t kDeepestLeaf = 6;
 /// The middle tier's error over q^2.
 constexpr double kMiddleError = 0.45;
 /// That of the scaled tier over (r_p r_e / d^2)^2.
@@ -85,9 +80,9 @@ double FaceLight::mean_kernel(const SubPatchView& view, const Emitter& emitter) 
 double FaceLight::pair_kernel(const Vec3& point, const Vec3& normal, const Emitter& emitter, bool odd) const {
   const EmitterEnd* ends = emitters_->ends.data() + emitter.first_end;
   const EmitterEnd &a = ends[odd ? 1 : 0], &b = ends[odd ? 2 : 3];
-  const double sum =
-      a.weight * kernel(point, normal, a.point, emitter.normal) + b.weight * kernel(point, normal, b.point, emitter.normal);
-  return sum / (a.weight + b.weight);
+  const double from_a = a.weight * kernel(point, normal, a.point, emitter.normal);
+  const double from_b = b.weight * kernel(point, normal, b.point, emitter.normal);
+  return (from_a + from_b) / (a.weight + b.weight);
 }
 
 void FaceLight::find_factors(const SubPatchView& view, const ReceiverGroup& group, Face& face) const {
@@ -115,62 +110,7 @@ void FaceLight::find_factors(const SubPatchView& view, const ReceiverGroup& grou
   }
 }
 
-/// The leaves of a face's quadtrees, in Z order: cells small against their distance. A long face is cut into squares
-/// first, nearly, each of which is a tree.
-class FaceLight::Leaves {
- public:
-  Leaves(const Piece& piece, const PieceGrid& grid, const SubPatchView& view, double radius)
-      : grid_(&grid), view_(&view), radius_(radius) {
-    const Vec3* c = piece.corner;
-    const double side_s = length(c[1] - c[0]), side_t = length(c[3] - c[0]);
-    if (!piece.cut && side_s > kLong * side_t) trees_s_ = trees(side_s, side_t);
-    if (!piece.cut && side_t > kLong * side_s) trees_t_ = trees(side_t, side_s);
-    const double s = side_s / trees_s_, t = side_t / trees_t_;
-    if (trees_s_ * trees_t_ > 1) radius_ = 0.5 * (s + t);
-    descend();
-  }
-  PieceGrid::Parameter centre() const { return centre_; }
-  /// Share of the face's area, up to a factor common to the leaves.
-  double weight() const { return grid_->weight_at(centre_) * cell_.size() * cell_.size(); }
-  /// False after the last.
-  bool next() {
-    if (!cell_.advance()) {
-      if (++tree_ == trees_s_ * trees_t_) return false;
-      cell_ = {};
-    }
-    descend();
-    return true;
-  }
-
- private:
-  static constexpr double kLong = 1.5;
-  static constexpr double kMostTrees = 64;
-
-  static std::uint32_t trees(double longer, double shorter) {
-    return static_cast<std::uint32_t>(longer > kMostTrees * shorter ? kMostTrees : longer / shorter + 0.5);
-  }
-  void descend() {
-    for (;;) {
-      const double size = cell_.size();
-      centre_ = {size * (cell_.x + 0.5), size * (cell_.y + 0.5)};
-      if (trees_s_ > 1) centre_.s = (tree_ + centre_.s) / trees_s_;
-      if (trees_t_ > 1) centre_.t = (tree_ + centre_.t) / trees_t_;
-      const double radius = radius_ * size;
-      const double squared = length_squared(grid_->point_at(centre_) - view_->centre);
-      const bool small = radius * radius <= kLeafAngle * kLeafAngle * squared || radius < kLeafOfRadius * view_->radius;
-      if (small || cell_.depth == kDeepestLeaf) return;
-      cell_.descend();
-    }
-  }
-
-  const PieceGrid* grid_;
-  const SubPatchView* view_;
-  double radius_;
-  std::uint32_t trees_s_ = 1, trees_t_ = 1, tree_ = 0;
-  QuadCell cell_;
-  PieceGrid::Parameter centre_{0.5, 0.5};
-};
-
+/// A face at a distance of less than its radius.
 bool FaceLight::is_split(const SubPatchView& view, const Emitter& emitter) {
   const double squared = length_squared(emitter.centre - view.centre);
   return emitter.is_area() && emitter.radius * emitter.radius > squared;
@@ -183,7 +123,7 @@ void FaceLight::look_at_leaves(const SubPatchView& view, const ReceiverGroup& gr
   const Piece piece = emitter_piece(*scene_, emitter);
   const PieceGrid grid(piece, 1);
   double all[kMostInGroup] = {}, arrives[kMostInGroup] = {};
-  Leaves leaves(piece, grid, view, emitter.radius);
+  FaceLeaves leaves(piece, grid, emitter.radius, view.centre, view.radius);
   do {
     const Vec3 end = grid.point_at(leaves.centre());
     double weight[kMostInGroup];
@@ -212,13 +152,13 @@ void FaceLight::look_at_leaves(const SubPatchView& view, const ReceiverGroup& gr
   }
 }
 
-/// Those ends of a face, from `first` on, that are above the receiver's horizon: a bit each.
+/// Those of some ends of a face, a bit each from `first` on, that are above the receiver's horizon.
 std::uint32_t FaceLight::ends_above(const SubPatchView& view, const Face& face, std::uint32_t first,
-                                    std::uint32_t count) const {
-  std::uint32_t above = 0;
-  for (std::uint32_t e = 0; e < count; ++e) {
-    if (face.below && !(view.receiver->height(emitters_->ends[first + e].point) > 0)) continue;
-    above |= std::uint32_t{1} << e;
+                                    std::uint32_t ends) const {
+  if (!face.below) return ends;
+  std::uint32_t above = 0, bit = 1;
+  for (std::uint32_t e = first; ends != 0; ++e, bit <<= 1, ends >>= 1) {
+    if ((ends & 1) != 0 && view.receiver->height(emitters_->ends[e].point) > 0) above |= bit;
   }
   return above;
 }
@@ -255,7 +195,7 @@ class FaceLight::EndWeights {
 void FaceLight::look_at_area(const SubPatchView& view, const ReceiverGroup& group, const Link& link, const Face& face,
                              const Aim& aim, FaceLook& look) const {
   const std::uint32_t first = face.emitter->first_end;
-  const std::uint32_t above = ends_above(view, face, first, kAreaEnds) & group.ends_of_area;
+  const std::uint32_t above = ends_above(view, face, first, group.ends_of_area);
   if (above == 0) return;
   const std::span<const LatticePoint> ends = emitters_->lattice_ends.subspan(first, kAreaEnds);
   std::uint32_t shadow[kMostInGroup] = {};
@@ -382,7 +322,7 @@ FaceLook FaceLight::look(const SubPatchView& view, const ReceiverGroup& group, c
   FaceLook look;
   Aim aim;
   std::size_t others = 0;  // facets of the aim that are not the polyhedron's own
-  bool aimed = false;
+  bool aimed = false, free = false;  // free: all of the polyhedron, shares don't matter
   Batch batch;
   for (std::uint32_t e = first; e < first + count; ++e) {
     Face& face = batch.face[batch.count];
@@ -406,13 +346,14 @@ FaceLook FaceLight::look(const SubPatchView& view, const ReceiverGroup& group, c
     look.split = is_split(view, *face.emitter);  // then the light has no other face
     if (!aimed) {
       aim = aims_->towards(face.emitter->light, link, group.box, look.split ? whole : ends, whole,
-                             look.split || grid == nullptr || !grid->usable() ? nullptr : grid);
+                            look.split || grid == nullptr || !grid->usable() ? nullptr : grid);
       others = aim.facets.size();
       if (!area && others > 0) others = intersector_->others_first(aim, scene_->meshes[face.emitter->mesh].object);
     }
     aimed = true;
     look.clear = aim.clear();
-    if (look.clear && given >= 0) break;
+    free = look.clear && given >= 0 && !area;
+    if (free) break;
     if (look.split) {
       look_at_leaves(view, group, link, face, aim, look);
     } else if (area) {
@@ -424,7 +365,7 @@ FaceLook FaceLight::look(const SubPatchView& view, const ReceiverGroup& group, c
   if (batch.count > 0) look_at_faces(view, group, link, batch, aim, others, look);
   for (std::uint32_t k = 0; k < group.count && given >= 0; ++k) {
     look.factor[k] = given;
-    if (look.clear) look.tested[k] = look.arrives[k] = given;
+    if (free) look.tested[k] = look.arrives[k] = given;
   }
   return look;
 }

@@ -78,7 +78,6 @@ class FaceLight {
   enum class Tier : std::uint8_t { kNothing, kFar, kMiddle, kScaled, kNear };
   struct Face;
   struct Batch;
-  class Leaves;
   class EndWeights;
 
   Tier tier_of(const SubPatchView& view, Face& face) const;
@@ -96,7 +95,7 @@ class FaceLight {
                      const Aim& aim, std::size_t others, FaceLook& look) const;
   void look_at_ends(const SubPatchView& view, const ReceiverGroup& group, const Link& link, const Batch& batch,
                     const Aim& aim, std::size_t others, std::uint32_t e, FaceLook& look) const;
-  std::uint32_t ends_above(const SubPatchView& view, const Face& face, std::uint32_t first, std::uint32_t count) const;
+  std::uint32_t ends_above(const SubPatchView& view, const Face& face, std::uint32_t first, std::uint32_t ends) const;
 
   const Scene* scene_;
   const Geometry* geometry_;

@@ -101,7 +101,8 @@ void Sources::fill(std::uint32_t l, Source& source) {
   double value[FactorField::kNodes][FactorField::kNodes];
   for (std::uint32_t j = 0; j < FactorField::kNodes; ++j) {
     for (std::uint32_t i = 0; i < FactorField::kNodes; ++i) {
-      const Vec3 point = patch_.corner[0] + (FactorField::node(i) + 0.5) * side_s + (FactorField::node(j) + 0.5) * side_t;
+      const double s = FactorField::node(i) + 0.5, t = FactorField::node(j) + 0.5;
+      const Vec3 point = patch_.corner[0] + s * side_s + t * side_t;
       value[j][i] = faces.factor_at(point, patch_receiver_, source.first_emitter, source.emitter_count,
                                     (i + j) % 2 != 0);
     }
@@ -237,8 +238,9 @@ Received Sources::receive_sun(std::uint32_t l, const Receiver& receiver, const S
 FaceLook Sources::look(std::uint32_t l, const SubPatchView& view, const ReceiverGroup& group, double shared_factor) {
   const Source& source = sources_[l];
   aimed_ = kNone;  // another wide aim follows
-  return face_light().look(view, group, link(l, *view.receiver), source.first_emitter, source.emitter_count, source.ends,
-                    source.whole, light(l).kind == LightKind::kArea ? &source.grid : nullptr, shared_factor);
+  const EndGrid* const grid = light(l).kind == LightKind::kArea ? &source.grid : nullptr;
+  return face_light().look(view, group, link(l, *view.receiver), source.first_emitter, source.emitter_count,
+                           source.ends, source.whole, grid, shared_factor);
 }
 
 FaceLook Sources::factors(std::uint32_t l, const SubPatchView& view, const ReceiverGroup& group, FaceReach reach) {

@@ -172,7 +172,9 @@ Aim Intersector::gather_along(const LatticeBox& a, const LatticeVector& directio
 
 Aim Intersector::gather_near(const LatticeBox& a, const LatticeVector& direction) {
   constexpr std::int64_t kRounding = (1 << kNearPart) - 1;
-  const auto part = [](std::int64_t x) { return x < 0 ? -((kRounding - x) >> kNearPart) : (x + kRounding) >> kNearPart; };
+  const auto part = [](std::int64_t x) {
+    return x < 0 ? -((kRounding - x) >> kNearPart) : (x + kRounding) >> kNearPart;
+  };
   return gather_along(a, {part(direction.x), part(direction.y), part(direction.z)});
 }
 

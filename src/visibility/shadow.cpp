@@ -172,21 +172,37 @@ bool are_few(std::uint32_t ends) {
   return (ends & (ends - 1)) == 0;
 }
 
-/// shadow_of_rectangle() for one end.
-bool passes_rectangle(const LatticeBox& box, const LatticePoint& p, const LatticePoint& q) {
-  const int axis = box.low[0] > box.high[0] ? 0 : box.low[1] > box.high[1] ? 1 : 2;
-  const std::int32_t part = box.low[axis] - 1 - at(p, axis), whole = at(q, axis) - at(p, axis);
-  if (part > 0 ? whole <= part : part == 0 || whole >= part) return false;
-  for (int u = 0; u < 3; ++u) {
-    if (u == axis) continue;
-    const std::int64_t run = product(part, at(q, u) - at(p, u));
-    const std::int64_t low = product(box.low[u] - at(p, u), whole);
-    if (part > 0 ? run < low : run > low) return false;
-    const std::int64_t high = product(box.high[u] - at(p, u), whole);
-    if (part > 0 ? run > high : run < high) return false;
+/// shadow_of_rectangle() end by end.
+class Rectangle {
+ public:
+  Rectangle(const LatticeBox& box, const LatticePoint& p) : p_(p) {
+    axis_ = box.low[0] > box.high[0] ? 0 : box.low[1] > box.high[1] ? 1 : 2;
+    side_[0] = axis_ == 0 ? 1 : 0;
+    side_[1] = axis_ == 2 ? 1 : 2;
+    part_ = box.low[axis_] - 1 - at(p, axis_);
+    for (int k = 0; k < 2; ++k) {
+      low_[k] = box.low[side_[k]] - at(p, side_[k]);
+      high_[k] = box.high[side_[k]] - at(p, side_[k]);
+    }
   }
-  return true;
-}
+  bool hides(const LatticePoint& q) const {
+    const std::int32_t way[3] = {q.x - p_.x, q.y - p_.y, q.z - p_.z}, whole = way[axis_];
+    if (part_ > 0 ? whole <= part_ : part_ == 0 || whole >= part_) return false;
+    for (int k = 0; k < 2; ++k) {
+      const std::int64_t run = product(part_, way[side_[k]]);
+      const std::int64_t low = product(low_[k], whole);
+      if (part_ > 0 ? run < low : run > low) return false;
+      const std::int64_t high = product(high_[k], whole);
+      if (part_ > 0 ? run > high : run < high) return false;
+    }
+    return true;
+  }
+
+ private:
+  LatticePoint p_;
+  int axis_, side_[2];
+  std::int32_t part_, low_[2], high_[2];
+};
 
 }  // namespace
 
@@ -196,8 +212,9 @@ std::uint32_t shadow_of(const Facet& facet, std::span<const Triangle> triangles,
   std::uint32_t shadow = 0;
   if (are_few(wanted)) {
     if (facet.tilted == 0) {
+      const Rectangle rectangle(facet.box, p);
       for_each(wanted, [&](std::uint32_t k, std::uint32_t bit) {
-        if (passes_rectangle(facet.box, p, segments.ends[k])) shadow |= bit;
+        if (rectangle.hides(segments.ends[k])) shadow |= bit;
       });
       if (facet.rectangle != 0) return shadow;
       wanted = shadow;

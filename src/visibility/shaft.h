@@ -2,12 +2,11 @@
 // Haines and Wallace 1991, shaft culling).
 //
 // Seen along an axis the boxes A and B are rectangles, and the hull of two rectangles has, besides sides of theirs,
-// edges from a corner of A to the same corner of B only: two mostly, four if they cross. So a box misses the hull if it
-// is outside the common box of A and B or beyond one of these lines. Lines are found in steps of 64 of the lattice, rounded
-// outwards, so that products fit 32 bits. Exact: no box that meets the hull is missed. Approximate: hull and box may be
-// apart where no axis shows it; that costs tests only. For a sun B is A moved along the direction,
-// which reaches out of the lattice's cube.
-// Stack: 330 bytes.
+// edges from a corner of A to the same corner of B only: two mostly, four if they cross. So a box misses the hull
+// if it is outside the common box of A and B or beyond one of these lines. Lines are found in steps of 64 of the
+// lattice, rounded outwards, so that products fit 32 bits. Exact: no box that meets the hull is missed.
+// Approximate: hull and box may be apart where no axis shows it; that costs tests only. For a sun B is A moved
+// along the direction, which reaches out of the lattice's cube. Stack: 330 bytes.
 #pragma once
 
 #include <cstdint>
