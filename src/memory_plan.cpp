@@ -110,7 +110,7 @@ PartText plan_part_text(PlanPart part) {
       {"flags", "2 (objects + lights)"},
       {"direct light of the patches", "(8 c + 8) n"},
       {"possible blockers", "32 facets + 24 boxes + 8 facets"},
-      {"light sources", "4,096 + 112 lights + 168 faces that emit + 44 ends of segments"},
+      {"light sources", "4,096 + 400 lights + 168 faces that emit + 44 ends of segments"},
       {"mirrors that send light on", "48 a triangle, with --mirror-light on"},
       {"ambient light of the patches", "8 c n"},
       {"surfaces", "12 a node + 32 blocks + 33 meshes (9 with blocks) + 3,716; their geometry is found again"},
