@@ -1,6 +1,7 @@
 #include "memory_plan.h"
 
 #include "ambient/ambient_memory.h"
+#include "ambient/gather.h"
 #include "ambient/surfaces.h"
 #include "base/check.h"
 #include "light/sources.h"
@@ -17,6 +18,10 @@ constexpr unsigned kAll = kLoad | kLight | kPicture;
 constexpr std::uint64_t rounded_up(std::uint64_t bytes) { return (bytes + 7) / 8 * 8; }
 
 std::uint64_t larger(std::uint64_t a, std::uint64_t b) { return a > b ? a : b; }
+
+std::uint64_t map_value_bytes(const Scene& scene) {
+  return rounded_up(4 * std::uint64_t{scene.sub_patch_count} * scene.channels);
+}
 
 std::uint64_t drawn_bytes(const Model& model) {
   return rounded_up(sizeof(DrawnTriangle) * std::uint64_t{model.geometry.drawn_count});
@@ -56,16 +61,17 @@ void plan_light(const Model& model, MemoryPlan& plan) {
            "17 facets", links, kAmbient);
   plan.add("solution", "16 c + 8 a node (+ 2 with rules 1 and 2, 16 with 2+) + one row + the coarse correction; "
            "rows: what is left", ambient - result - surfaces - links, kAmbient);
-  plan.add("direct light of the sub-patches", "(4 c + 1) s; spare: given up to the rows", direct_sub_patch_bytes(scene),
-           kAgain | kMap | kPicture);
+  plan.add("direct light of the sub-patches", "(4 c + 1) s, (4 c + 3) s with --gather on; spare: given up to the rows",
+           direct_sub_patch_bytes(scene, options), kAgain | kMap | kPicture);
 }
 
 void plan_picture(const Model& model, MemoryPlan& plan) {
   const Scene& scene = model.scene;
-  const std::uint64_t maps = rounded_up(4 * std::uint64_t{scene.sub_patch_count} * scene.channels);
+  const std::uint64_t maps = map_value_bytes(scene);
   plan.add("ambient maps", "4 c s", maps, kMap | kPicture);
-  plan.add("spreading over a mesh", "9 a patch + 8 a row of sub-patches, of the largest mesh",
-           map_bytes(scene, model.options) - maps, kMap);
+  plan.add("spreading over a mesh, or gathering", "9 a patch + 8 a row of sub-patches, of the largest mesh; --gather: "
+           "surfaces + possible blockers + 4 c blocks + 2 a node + 16,384 + 4 facets + 40 objects + 3,584",
+           maps_bytes(model, SurfacesKeep::kNothing) - maps, kMap);
   plan.add("drawing, or placing again", "2 c s + 8193 + (4 c + 3) width + 4 rows + 4 drawn + 392 active triangles",
            larger(model.geometry.placing_bytes, model.picture_scratch), kPicture);
 }
@@ -96,6 +102,13 @@ std::uint64_t MemoryPlan::peak() const {
   return most;
 }
 
+std::uint64_t maps_bytes(const Model& model, SurfacesKeep keep) {
+  const std::uint64_t spread = map_bytes(model.scene, model.options);
+  if (!model.options.gathers()) return spread;
+  return larger(spread,
+                map_value_bytes(model.scene) + gather_bytes(model.scene, model.geometry, model.options, keep));
+}
+
 std::uint64_t drawn_and_picture_bytes(const Model& model) {
   return drawn_bytes(model) + larger(model.geometry.placing_bytes, model.picture_scratch);
 }
@@ -115,13 +128,13 @@ bool keeps_geometry(const Model& model) {
   const std::uint64_t flags = options.flags == FlagMode::kOff ? 0 : FlagTables::bytes(scene);
   const std::uint64_t blockers = Intersector::bytes(model.geometry, options.flags);
   const std::uint64_t patches = model.after_patches + flags + direct_patch_bytes(scene);
-  const std::uint64_t solved = patches + ambient_result_bytes(scene) + direct_sub_patch_bytes(scene);
+  const std::uint64_t solved = patches + ambient_result_bytes(scene) + direct_sub_patch_bytes(scene, options);
   const std::uint64_t ambient = smallest_ambient_bytes(scene, model.geometry, options, SurfacesKeep::kGeometry);
   const std::uint64_t rows = expected_row_bytes(scene, options);
   // Geometry costs less to find again than the direct light that would have to make room for it.
-  std::uint64_t most = patches + blockers + ambient + rows + (rows > 0 ? direct_sub_patch_bytes(scene) : 0);
+  std::uint64_t most = patches + blockers + ambient + rows + (rows > 0 ? direct_sub_patch_bytes(scene, options) : 0);
   most = larger(most, solved + blockers + Sources::bytes(scene));
-  most = larger(most, solved + map_bytes(scene, options));
+  most = larger(most, solved + maps_bytes(model, SurfacesKeep::kGeometry));
   return most <= model.arena.capacity();
 }
 

@@ -158,6 +158,13 @@ bool take_tiers(std::string_view text, Arguments& a) {
   return text == "near" || number_in(text, 1e-9, 1, a.options.tiers);
 }
 
+bool take_gather(std::string_view text, Arguments& a) {
+  a.options.gather_error = 0;
+  if (on_or_off(text, a.options.gather)) return true;
+  a.options.gather = true;
+  return number_in(text, 1e-9, 1, a.options.gather_error);
+}
+
 bool take_text(std::string_view text, std::string& value) {
   value = text;
   return !text.empty();
@@ -202,6 +209,9 @@ constexpr OptionRule kOptions[] = {
      [](std::string_view t, Arguments& a) { return on_or_off(t, a.options.scale_rows); }},
     {"--interpolate", "on|off", kForAll, "on or off", "ambient light interpolated between patches (on)",
      [](std::string_view t, Arguments& a) { return on_or_off(t, a.options.interpolate); }},
+    {"--gather", "on|off|REL", kForAll, "on, off, or a number from 1e-9 to 1",
+     "every sub-patch gathers its ambient light, REL: error of one node's, of the mean; not with rules 1, 2, 2+, 3 (off)",
+     take_gather},
     {"--row-values", "16|64", kForAll, "16 or 64", "bits of a stored form factor (16)",
      [](std::string_view t, Arguments& a) {
        return one_of(t, {16, 64}, a.options.row_value_bits);
