@@ -35,8 +35,8 @@ struct Options {
   std::uint32_t segments_mixed = 64;   // the same, where some of the first are blocked and some not
   bool scale_rows = true;
   bool interpolate = true;
-  bool gather = false;                 // every sub-patch gathers its ambient light (doc/gather.md); not with rules 1, 2,
-                                       // 2+ and 3, which are the paper's, as its interpolation is
+  bool gather = false;                 // every sub-patch gathers its ambient light (doc/gather.md); not with rules 1,
+                                       // 2, 2+ and 3, which are the paper's, as its interpolation is
   double gather_error = 0;             // of one node's light there, of the mean illuminance; 0: the default
   std::uint32_t row_value_bits = 16;   // 16 or 64
   std::uint32_t width = 1280;          // pixels

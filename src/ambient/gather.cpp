@@ -11,6 +11,7 @@ namespace {
 constexpr double kStandardErrors = 3;
 constexpr double kLightError = 1.0 / 64;
 constexpr std::uint32_t kProgressInterval = 16;
+constexpr std::uint32_t kRegionNodes = 31;  // 16 patches
 
 /// Blocks serve whatever the rules are.
 Options with_blocks(const Options& options) {
@@ -71,7 +72,7 @@ double Gather::scale_of(const GatherPoint& point) const {
                            ? 0
                            : static_cast<double>(scene_.direct.sub_patch_factor[point.sub_patch]) * (1.0 / 65535);
   const double lights = given < 1 ? given : 1, missing = 1 - lights - point.factor;
-  const double unsure = group_.geometry_error() + kStandardErrors * square_root(point.variance) +
+  const double unsure = point.geometry_error + kStandardErrors * square_root(point.variance) +
                         kLightError * lights + point.lost_inside();
   if (!options_.scale_rows || !(point.factor > 0) || missing > unsure) return 1;
   return (1 - lights) / point.factor;
@@ -139,9 +140,14 @@ Status gather_illuminance(const Scene& scene, const Geometry& geometry, std::spa
   Gather gather(shared, options, points, ambient_lx);
   std::uint32_t done = 0;
   for (std::uint32_t k = 0; k < surfaces.mesh_at.size(); ++k) {
-    lists.start_mesh(k);
+    std::uint32_t region_end = surfaces.mesh_begin[k];
     for (std::uint32_t node = surfaces.mesh_begin[k]; node < surfaces.mesh_begin[k + 1]; ++node) {
-      if (surfaces.is_block(node)) continue;
+      const bool block = surfaces.is_block(node);
+      if (node >= region_end && (!block || surfaces.end(node) - node <= kRegionNodes)) {
+        lists.start_region(k, node);
+        region_end = block ? surfaces.end(node) : surfaces.mesh_begin[k + 1];
+      }
+      if (block) continue;
       if (done++ % kProgressInterval == 0 && !progress.go_on(Stage::kSolution, done, scene.patch_count)) {
         status.code = StatusCode::kInterrupted;
         return status;

@@ -18,7 +18,7 @@
 namespace shodo {
 
 /// What one node may make wrong of a sub-patch's illuminance, of the scene's mean.
-inline constexpr double kGatherError = 5e-4;
+inline constexpr double kGatherError = 1e-3;
 
 /// `ambient_lx` holds what was interpolated, [sub_patch * channels + channel], and gets what is gathered by every
 /// sub-patch that is not hidden and whose patch wasn't dropped. Errors: kMemory, kInterrupted.

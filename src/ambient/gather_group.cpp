@@ -1,43 +1,19 @@
 #include "ambient/gather_group.h"
 
-#include "light/polygon_factor.h"
-#include "scene/sub_patches.h"
-
 namespace shodo {
 
 namespace {
 
 // Relative to the error of a node.
 constexpr double kTiny = 0.6;
-constexpr double kOneSegment = 2, kMostMixed = 8;
-constexpr double kOfUneven = 0.5;  // of the unevenness, what a contour's integral makes wrong
 
 constexpr double kSmallest = 16;      // so many times smaller than the mean, patches gather as roughly as any
 
 constexpr double kMostQ = 0.35;       // of the series
 constexpr double kSeriesShare = 0.5;  // its error is that times q^2
+constexpr double kBendShare = 1.0 / 8;  // of the second order over the group
 constexpr double kBelow = 1.0 / 32;   // of a node's longest side, may lie behind the receiver's plane
-constexpr double kClose = 3;          // of both longest sides squared: nearer than that is close
-constexpr double kPartQ = 0.2;        // sub-patches beyond it send by their contour
 constexpr std::int32_t kMoved = 16;   // samples are moved in front of their surface by less than that
-
-std::uint32_t hash_of(std::uint32_t a, std::uint32_t b) {
-  std::uint32_t h = a * 0x9E3779B1u + b * 0x85EBCA77u;
-  h ^= h >> 15;
-  return (h * 0x2C1B3C6Du) >> 16;
-}
-
-/// Planar or not, cut or not.
-double piece_factor(const Vec3& point, const Vec3& normal, const Piece& piece, bool planar) {
-  if (piece.corners == 3 || (planar && !piece.cut)) return point_to_polygon(point, normal, piece.corner, piece.corners);
-  const std::uint32_t first = piece.concave ? 1 : 0;
-  double sum = 0;
-  for (std::uint32_t half = 0; half < 2; ++half) {
-    const Vec3 corner[3] = {piece.corner[first], piece.corner[first + 1 + half], piece.corner[(first + 2 + half) & 3]};
-    sum += point_to_polygon(point, normal, corner, 3);
-  }
-  return sum;
-}
 
 }  // namespace
 
@@ -50,25 +26,6 @@ void GatherGroup::add_close(GatherPoint& point, std::uint32_t k, double weight) 
   const GatherPoint::Close& close = point.close[k];
   for (std::uint32_t c = 0; c < scene_.surfaces.scene->channels; ++c) point.lx[c] += weight * close.lx[c];
   point.factor += weight * close.factor;
-}
-
-/// The free part of so many segments to `ends` (1 or 4) ends; of twice as many if they disagree.
-double GatherGroup::visible(GatherPoint& point, std::uint32_t turn, const LatticePoint* to, std::uint32_t ends,
-                            std::uint32_t segments, double factor) {
-  std::uint32_t free = 0, done = 0;
-  for (std::uint32_t most = segments; done < most; ++done) {
-    const std::uint32_t origin = (turn + done) & 3, end = (turn / 4 + 3 * done + done / 4) & (ends - 1);
-    if (scene_.lists.blocked(point.from[origin], to[end])) {
-      point.lost[origin] += static_cast<float>(factor);
-    } else {
-      ++free;
-      point.free |= 1u << origin;
-    }
-    if (done + 1 == most && most > 1 && most == segments && free > 0 && free <= done) most = 2 * segments;
-  }
-  const double n = done, f = free;
-  point.variance += factor * factor * ((f + 0.5) * (n - f + 0.5) / ((n + 1) * (n + 1) * (n + 2)));
-  return f / n;
 }
 
 LatticeBox GatherGroup::samples_box(std::uint32_t j) const {
@@ -96,19 +53,6 @@ LatticeBox GatherGroup::whole_box(std::uint32_t j) const {
     const std::int32_t high = static_cast<std::int32_t>((centre[k] + half) * steps) + kMoved;
     if (low < box.low[k]) box.low[k] = low;
     if (high > box.high[k]) box.high[k] = high;
-  }
-  return box;
-}
-
-/// Around the samples of a patch and the centres of its sub-patches.
-LatticeBox GatherGroup::inner_box(std::uint32_t j, const Mesh& mesh) const {
-  LatticeBox box = samples_box(j), whole = whole_box(j);
-  const std::uint32_t most = mesh.su > mesh.sv ? mesh.su : mesh.sv;
-  for (int k = 0; k < 3; ++k) {
-    const std::int32_t inset = (whole.high[k] - whole.low[k]) / static_cast<std::int32_t>(2 * most) - kMoved;
-    if (inset <= 0) continue;
-    if (whole.low[k] + inset < box.low[k]) box.low[k] = whole.low[k] + inset;
-    if (whole.high[k] - inset > box.high[k]) box.high[k] = whole.high[k] - inset;
   }
   return box;
 }
@@ -198,7 +142,7 @@ GatherGroup::Step GatherGroup::consider(std::uint32_t j) {
   }
   geometry_error_ += look.factor * kSeriesShare * look.q * look.q;
   if (!clear) {
-    const double part = group_visible(look);
+    const double part = group_visible(look, w <= kOneSegment * error ? 2 : 4);
     if (part > 0 && part < 1 && w > kOneSegment * error && points_.size() > 1) {
       gather_each(look, false, 2);
       return Step::kDone;
@@ -215,14 +159,13 @@ GatherGroup::Step GatherGroup::consider(std::uint32_t j) {
   return Step::kDone;
 }
 
-/// The free part of four segments between the group and the node.
-double GatherGroup::group_visible(const Look& look) {
+/// The free part of two or four segments between the group and the node; of four if two disagree.
+double GatherGroup::group_visible(const Look& look, std::uint32_t segments) {
   const LatticePoint* const samples = scene_.surfaces.samples(look.node);
-  const std::uint32_t last = scene_.surfaces.cached_points - 1, turn = hash_of(node_, look.node);
+  const std::uint32_t last = scene_.surfaces.cached_points - 1, turn = gather_hash(node_, look.node);
   const std::uint32_t points = static_cast<std::uint32_t>(points_.size());
   std::uint32_t free = 0, at = turn % points;
-  constexpr std::uint32_t kSegments = 4;
-  for (std::uint32_t k = 0; k < kSegments; ++k) {
+  for (std::uint32_t k = 0; k < segments; ++k) {
     GatherPoint& point = points_[at];
     const std::uint32_t origin = (turn / 16 + k) & 3;
     if (scene_.lists.blocked(point.from[origin], samples[(turn / 64 + 3 * k) & last])) {
@@ -231,10 +174,11 @@ double GatherGroup::group_visible(const Look& look) {
       ++free;
       point.free |= 1u << origin;
     }
-    at += points > kSegments ? points / kSegments : 1;
+    at += points > 4 ? points / 4 : 1;
     if (at >= points) at -= points;
+    if (k == 1 && free == 1) segments = 4;
   }
-  const double n = kSegments, f = free;
+  const double n = segments, f = free;
   shared_variance_ += look.factor * look.factor * ((f + 0.5) * (n - f + 0.5) / ((n + 1) * (n + 1) * (n + 2)));
   return f / n;
 }
@@ -243,7 +187,7 @@ void GatherGroup::gather_tiny(const Look& look) {
   const Surfaces& s = scene_.surfaces;
   const double area = look.patch->area;
   const double factor = look.over_i * look.over_j * area / ((kPi * look.squared + area) * look.squared);
-  const std::uint32_t turn = hash_of(node_, look.node);
+  const std::uint32_t turn = gather_hash(node_, look.node);
   GatherPoint& point = points_[turn % points_.size()];
   scene_.lists.aim(look.node);
   const std::uint32_t origin = turn >> 4 & 3, end = turn >> 6 & (s.cached_points - 1);
@@ -256,6 +200,8 @@ void GatherGroup::gather_tiny(const Look& look) {
 }
 
 void GatherGroup::gather_linear(const Look& look) {
+  const double m2 = reach_ * reach_ / look.squared, alpha = reach_ / look.over_j;
+  geometry_error_ += kBendShare * look.factor * (alpha * alpha + 16 * m2);
   const Vec3 slope = look.factor * ((1 / look.over_j) * look.patch->normal + (4 / look.squared) * look.way);
   shared_factor_ += look.factor;
   slope_factor_ = slope_factor_ + slope;
@@ -268,7 +214,7 @@ void GatherGroup::gather_linear(const Look& look) {
 void GatherGroup::gather_each(const Look& look, bool clear, std::uint32_t segments) {
   const double weight = look.patch->area * kInversePi * look.correction;
   const LatticePoint* const samples = scene_.surfaces.samples(look.node);
-  std::uint32_t turn = hash_of(node_, look.node);
+  std::uint32_t turn = gather_hash(node_, look.node);
   for (GatherPoint& point : points_) {
     turn += 5;
     const double over_i = look.over_i - point.height, over_j = look.over_j + dot(look.patch->normal, point.offset);
@@ -277,106 +223,6 @@ void GatherGroup::gather_each(const Look& look, bool clear, std::uint32_t segmen
     double factor = weight * over_i * over_j / (squared * squared);
     if (!clear) factor *= visible(point, turn, samples, scene_.surfaces.cached_points, segments, factor);
     add(point, look.radiosity, factor);
-  }
-}
-
-/// A patch too near for one kernel, or partly in the shade.
-void GatherGroup::gather_near(const Look& look) {
-  const Surfaces& s = scene_.surfaces;
-  const Mesh& mesh = s.mesh(look.node);
-  const bool clear = scene_.lists.clear(inner_box(look.node, mesh), look.node);
-  const double uneven = scene_.senders.uneven(look.node);
-  const bool parts = mesh.su * mesh.sv > 1 && (kOfUneven * look.bound * uneven > error_ * look.level ||
-                                               (!clear && look.bound > kMostMixed * error_));
-  if (parts) {
-    gather_parts(look, clear);
-  } else {
-    gather_polygon(look, s.piece(look.node), clear);
-  }
-}
-
-/// By the contour from each of four places, with a segment from there.
-void GatherGroup::gather_close(GatherPoint& point, const Piece& piece, bool planar, const double* radiosity,
-                               const LatticePoint* to, std::uint32_t ends, bool clear) {
-  for (std::uint32_t k = 0; k < 4; ++k) {
-    const double factor = piece_factor(point.place[k], normal_, piece, planar);
-    if (!(factor > 0)) continue;
-    if (!clear && scene_.lists.blocked(point.from[k], to[k & (ends - 1)])) {
-      point.lost[k] += static_cast<float>(0.25 * factor);
-      continue;
-    }
-    if (!clear) point.free |= 1u << k;
-    GatherPoint::Close& close = point.close[k];
-    close.factor += factor;
-    for (std::uint32_t c = 0; c < scene_.surfaces.scene->channels; ++c) close.lx[c] += factor * radiosity[c];
-  }
-}
-
-void GatherGroup::gather_polygon(const Look& look, const Piece& piece, bool clear) {
-  const Surfaces& s = scene_.surfaces;
-  const LatticePoint* const samples = s.samples(look.node);
-  const bool planar = s.mesh(look.node).kind != MeshKind::kGrid;
-  std::uint32_t turn = hash_of(node_, look.node);
-  const double side = look.patch->longest_side;
-  for (GatherPoint& point : points_) {
-    turn += 5;
-    const Vec3 way = look.way - point.offset;
-    if (look.bound > kOneSegment * error_ && length_squared(way) < kClose * (side * side + point.side_squared)) {
-      gather_close(point, piece, planar, look.radiosity, samples, s.cached_points, clear);
-      continue;
-    }
-    double factor = piece_factor(centre_ + point.offset, normal_, piece, planar);
-    if (!(factor > 0)) continue;
-    const std::uint32_t segments = factor * look.level <= kMostMixed * error_ ? 2 : 4;
-    if (!clear) factor *= visible(point, turn, samples, s.cached_points, segments, factor);
-    add(point, look.radiosity, factor);
-  }
-}
-
-void GatherGroup::gather_parts(const Look& look, bool clear) {
-  const Surfaces& s = scene_.surfaces;
-  const Mesh& mesh = s.mesh(look.node);
-  const Rgb& rho = s.scene->materials[mesh.material].diffuse;
-  const std::uint32_t mesh_index = s.mesh_index(look.node), local = s.local(look.node), channels = s.scene->channels;
-  const std::uint32_t cell = cell_of_patch(mesh, local);
-  const bool planar = mesh.kind != MeshKind::kGrid;
-  std::uint32_t turn = hash_of(node_, look.node);
-  SubPatchesOfPatch parts(mesh, local);
-  for (std::uint32_t k = parts.next(); k != kNone; k = parts.next()) {
-    const std::size_t at = mesh.first_sub_patch + std::size_t{k};
-    if (!scene_.direct.hidden.empty() && scene_.direct.hidden[at] != 0) continue;
-    double sends[3] = {0, 0, 0};
-    for (std::uint32_t c = 0; c < channels; ++c) {
-      const std::size_t value = at * channels + c;
-      sends[c] = rho.c[c] * (static_cast<double>(scene_.direct.sub_patch_lx[value]) +
-                             static_cast<double>(scene_.ambient_lx[value]));
-    }
-    const double level = scene_.senders.level_of(sends);
-    const Piece piece = sub_patch_piece(*s.scene, mesh, k);
-    const Vec3 centre = piece.centre();
-    const LatticePoint end = sample_point(*s.scene, *s.geometry, mesh_index, cell, centre);
-    const double area = length(piece.vector_area()) * kInversePi;
-    const double side = piece.longest_side(), near = side * side / (3 * kPartQ);
-    for (GatherPoint& point : points_) {
-      turn += 5;
-      const Vec3 from = centre_ + point.offset, way = centre - from;
-      const double over_i = dot(normal_, way), over_j = -dot(look.patch->normal, way), squared = length_squared(way);
-      if (squared < kClose * (side * side + point.side_squared)) {
-        gather_close(point, piece, planar, sends, &end, 1, clear);
-        continue;
-      }
-      double factor;
-      if (squared < near || over_i < side) {
-        factor = piece_factor(from, normal_, piece, planar);
-      } else {
-        factor = over_j > 0 ? over_i * over_j * area / (squared * squared) : 0;
-      }
-      if (!(factor > 0)) continue;
-      const double w = factor * level;
-      const std::uint32_t segments = w <= kOneSegment * error_ ? 1 : w <= kMostMixed * error_ ? 2 : 4;
-      if (!clear) factor *= visible(point, turn, &end, 1, segments, factor);
-      add(point, sends, factor);
-    }
   }
 }
 
@@ -415,6 +261,7 @@ void GatherGroup::finish_points() {
     }
     point.factor += shared_factor_ + dot(slope_factor_, point.offset);
     point.variance += shared_variance_;
+    point.geometry_error += geometry_error_;
     for (std::uint32_t c = 0; c < scene_.surfaces.scene->channels; ++c) {
       point.lx[c] += shared_lx_[c] + dot(slope_lx_[c], point.offset);
     }

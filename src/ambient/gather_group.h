@@ -1,16 +1,16 @@
-// Some sub-patches of one patch gather light together (ours; final gather, doc/gather.md).
+// Some sub-patches of one patch gather light together (ours; doc/gather.md).
 //
-// The nodes of all meshes (ambient/block_tree.h) are walked in ascending order; each is taken as a whole, or replaced by
-// its parts. With w its light here over the scene's mean illuminance, estimated at the group's centre, and `error` what
-// one node may make wrong of it:
-//     w small                    one segment for all sub-patches, one kernel
-//     the series fits (q^2 w, and the kernel's variation times how unevenly the node sends), and
-//       nothing comes between    value and gradient at the group's centre; else a kernel for each sub-patch
-//       something may            a kernel and 1 to 4 segments for each sub-patch, if w isn't large
-//     a patch too near for that  its contour from each sub-patch; or, if it sends unevenly or is partly in the shade, its
-//                                own sub-patches one by one, which send their direct light and the ambient light found
-//                                so far
-// Otherwise blocks are split. The kernel's second order over the node is found once, at the group's centre. Stack: 1 KiB.
+// The nodes of all meshes (ambient/block_tree.h) are walked in ascending order; each is taken as a whole, or replaced
+// by its parts. With w its light here over the scene's mean illuminance, estimated at the group's centre, and `error`
+// what one node may make wrong of it:
+//     w small                    one kernel and one segment for all sub-patches
+//     the kernel's series fits   (q^2 w, and its variation times how unevenly the node sends) two or four segments for
+//                                the group; where they agree value and gradient at the centre, or a kernel for each
+//                                sub-patch if it bends; where they don't, each sub-patch gets segments of its own
+//     a patch too near for that  its contour from each sub-patch; or, if it sends unevenly or may be in half shade, its
+//                                sub-patches one by one, which send their direct light and the ambient light found so
+//                                far; from close by each of four places in a sub-patch gathers for itself
+// Otherwise, and in half shade if w is large, blocks are split. Close and near: ambient/gather_near.cpp. Stack: 1 KiB.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +25,16 @@ namespace shodo {
 
 inline constexpr std::uint32_t kMostTogether = 16;
 
+// Of the error of a node: up to the first one segment is enough, beyond the last a node in half shade is too large.
+inline constexpr double kOneSegment = 2, kMostMixed = 8;
+
+/// So that not all segments go from the same corners to the same corners.
+inline std::uint32_t gather_hash(std::uint32_t i, std::uint32_t j) {
+  std::uint32_t h = i * 0x9E3779B1u + j * 0x85EBCA77u;
+  h ^= h >> 15;
+  return (h * 0x2C1B3C6Du) >> 16;
+}
+
 /// A sub-patch that gathers.
 struct GatherPoint {
   Vec3 offset;               // of its centre from the group's; before, its centre
@@ -36,6 +46,7 @@ struct GatherPoint {
   double lx[3] = {0, 0, 0};  // gathered
   double factor = 0;         // sum of form factors, shadows included
   double variance = 0;       // of `factor`, by segments
+  double geometry_error = 0;  // of it besides, estimated
   float lost[4] = {0, 0, 0, 0};  // form factors of blocked segments, by where they start
   std::uint32_t free = 0;    // bit k: a segment from from[k] was free
   std::uint32_t sub_patch = 0;
@@ -73,8 +84,6 @@ class GatherGroup {
 
   /// The points, whose offsets are their centres, belong to the patch at `node` of mesh_at[place].
   void gather(std::uint32_t node, std::uint32_t place, std::span<GatherPoint> points);
-  /// Of the sum of form factors, estimated.
-  double geometry_error() const { return geometry_error_; }
 
  private:
   enum class Step : std::uint8_t { kDone, kSplit };
@@ -107,7 +116,7 @@ class GatherGroup {
   void gather_parts(const Look& look, bool clear);
   double visible(GatherPoint& point, std::uint32_t turn, const LatticePoint* to, std::uint32_t ends,
                  std::uint32_t segments, double factor);
-  double group_visible(const Look& look);
+  double group_visible(const Look& look, std::uint32_t segments);
   void add(GatherPoint& point, const double* radiosity, double factor) const;
   void add_close(GatherPoint& point, std::uint32_t k, double weight) const;
   void finish_points();
@@ -121,7 +130,7 @@ class GatherGroup {
   Vec3 centre_, normal_;
   double error_ = 0;  // that of scene_, more for small patches
   double reach_ = 0;  // of the points' sub-patches, from the centre
-  double geometry_error_ = 0;
+  double geometry_error_ = 0;  // of what all points share
   // Of the group's centre, and gradients.
   double shared_lx_[3] = {}, shared_factor_ = 0, shared_variance_ = 0;
   Vec3 slope_lx_[3], slope_factor_;

@@ -6,7 +6,7 @@ namespace {
 
 /// Samples lie in the box of the corners, grown by that along axes to which their mesh isn't square.
 constexpr std::int32_t kRounding = 8;
-constexpr std::uint32_t kShort = 6;  // a list so short isn't narrowed for parts
+constexpr std::uint32_t kShort = 16;  // a list so short isn't narrowed for parts
 
 bool holds(const LatticeBox& whole, const LatticeBox& part) {
   for (int k = 0; k < 3; ++k) {
@@ -15,19 +15,29 @@ bool holds(const LatticeBox& whole, const LatticeBox& part) {
   return true;
 }
 
-LatticeBox box_of_mesh(const Scene& scene, const Geometry& geometry, std::uint32_t m) {
-  const Mesh& mesh = scene.meshes[m];
-  LatticeBox box;
-  for (std::uint32_t cell = 0; cell < cell_count(mesh); ++cell) {
-    const Piece piece = cell_piece(scene, mesh, cell);
-    for (std::uint32_t k = 0; k < piece.corners; ++k) box.include(sample_point(scene, geometry, m, cell, piece.corner[k]));
+void include_piece(const Scene& scene, const Geometry& geometry, std::uint32_t m, std::uint32_t cell,
+                   const Piece& piece, LatticeBox& box) {
+  for (std::uint32_t k = 0; k < piece.corners; ++k) {
+    box.include(sample_point(scene, geometry, m, cell, piece.corner[k]));
   }
+}
+
+LatticeBox grown(LatticeBox box) {
   for (int k = 0; k < 3; ++k) {
     if (box.low[k] >= box.high[k]) continue;
     box.low[k] -= kRounding;
     box.high[k] += kRounding;
   }
   return box;
+}
+
+LatticeBox box_of_mesh(const Scene& scene, const Geometry& geometry, std::uint32_t m) {
+  const Mesh& mesh = scene.meshes[m];
+  LatticeBox box;
+  for (std::uint32_t cell = 0; cell < cell_count(mesh); ++cell) {
+    include_piece(scene, geometry, m, cell, cell_piece(scene, mesh, cell), box);
+  }
+  return grown(box);
 }
 
 }  // namespace
@@ -46,7 +56,7 @@ Status GatherLists::take(Arena& arena, const Surfaces& surfaces) {
   const bool taken = arena.take("blockers of patches", kListedFacets, words_) &&
                      arena.take("blockers of a node", Blockers::facet_count(*surfaces.geometry), pair_) &&
                      arena.take("boxes of objects", objects, object_box_) &&
-                     arena.take("blockers of objects", objects, of_mesh_) &&
+                     arena.take("blockers of objects", objects, of_region_) &&
                      arena.take("blockers of objects", objects, of_group_);
   if (!taken || (!intersector_.seeking() && !own_.build(*surfaces.geometry, arena))) return arena.refused();
   for (LatticeBox& box : object_box_) box = {};
@@ -60,23 +70,30 @@ std::span<const Facet> GatherLists::facets() {
   return intersector_.seeking() ? intersector_.facets() : own_.facets();
 }
 
-void GatherLists::start_mesh(std::uint32_t place) {
-  const std::uint32_t m = surfaces_->mesh_at[place];
-  mesh_box_ = box_of_mesh(*surfaces_->scene, *surfaces_->geometry, m);
+void GatherLists::start_region(std::uint32_t place, std::uint32_t node) {
+  const Surfaces& s = *surfaces_;
+  const std::uint32_t m = s.mesh_at[place];
+  if (s.is_block(node)) {
+    LatticeBox box;
+    include_piece(*s.scene, *s.geometry, m, 0, s.piece(node), box);
+    region_box_ = grown(box);
+  } else {
+    region_box_ = box_of_mesh(*s.scene, *s.geometry, m);
+  }
   link_ = {surfaces_->scene->meshes[m].object, kNone, LightSet::kAmbient};
-  for (List& list : of_mesh_) list = {};
-  mesh_used_ = 0;
+  for (List& list : of_region_) list = {};
+  region_used_ = 0;
 }
 
 void GatherLists::start_group(const LatticeBox& box) {
   group_box_ = box;
-  inside_ = holds(mesh_box_, box);
-  if (!inside_) mesh_box_.include(box);  // other groups' lists stay good: they are longer than need be
+  inside_ = holds(region_box_, box);
+  if (!inside_) region_box_.include(box);  // other groups' lists stay good: they are longer than need be
   for (List& list : of_group_) list = {};
   group_used_ = 0;
   if (inside_) return;
-  for (List& list : of_mesh_) list = {};
-  mesh_used_ = 0;
+  for (List& list : of_region_) list = {};
+  region_used_ = 0;
 }
 
 void GatherLists::start_object(std::uint32_t object) {
@@ -85,35 +102,35 @@ void GatherLists::start_object(std::uint32_t object) {
   parts_ = 0;
 }
 
-/// Everything between the mesh and the object.
+/// Everything between the region and the object.
 template <class Visit>
 void GatherLists::visit_all(Visit visit) {
   if (!intersector_.seeking()) {
-    own_.visit(Shaft(mesh_box_, object_box_[object_]), visit);
+    own_.visit(Shaft(region_box_, object_box_[object_]), visit);
     return;
   }
-  for (const std::uint32_t f : intersector_.aim(mesh_box_, object_box_[object_], link_).facets) visit(f);
+  for (const std::uint32_t f : intersector_.aim(region_box_, object_box_[object_], link_).facets) visit(f);
 }
 
-void GatherLists::find_mesh_list() {
-  List& list = of_mesh_[object_];
-  list = {mesh_used_, 0};
+void GatherLists::find_region_list() {
+  List& list = of_region_[object_];
+  list = {region_used_, 0};
   bool fits = listable();
   visit_all([&](std::uint32_t f) {
-    if (mesh_used_ + list.count >= kOfMesh) {
+    if (region_used_ + list.count >= kOfRegion) {
       fits = false;
     } else {
-      words_[mesh_used_ + list.count++] = static_cast<std::uint16_t>(f);
+      words_[region_used_ + list.count++] = static_cast<std::uint16_t>(f);
     }
   });
   if (!fits) list.count = kTooLong;
-  if (fits) mesh_used_ += list.count;
+  if (fits) region_used_ += list.count;
 }
 
 template <class Visit>
-void GatherLists::visit_mesh_list(Visit visit) {
-  if (of_mesh_[object_].count == kNotYet) find_mesh_list();
-  const List& list = of_mesh_[object_];
+void GatherLists::visit_region_list(Visit visit) {
+  if (of_region_[object_].count == kNotYet) find_region_list();
+  const List& list = of_region_[object_];
   if (list.count == kTooLong) {
     visit_all(visit);
     return;
@@ -123,11 +140,11 @@ void GatherLists::visit_mesh_list(Visit visit) {
 
 void GatherLists::find_group_list() {
   List& list = of_group_[object_];
-  list = {kOfMesh + group_used_, 0};
+  list = {kOfRegion + group_used_, 0};
   bool fits = listable();
   const LeanShaft shaft(group_box_, object_box_[object_]);
   const std::span<const Facet> all = facets();
-  visit_mesh_list([&](std::uint32_t f) {
+  visit_region_list([&](std::uint32_t f) {
     if (shaft.misses(all[f].box)) return;
     if (group_used_ + list.count >= kOfGroup) {
       fits = false;
@@ -149,7 +166,7 @@ void GatherLists::visit_group_list(Visit visit) {
   }
   const LeanShaft shaft(group_box_, object_box_[object_]);
   const std::span<const Facet> all = facets();
-  visit_mesh_list([&](std::uint32_t f) {
+  visit_region_list([&](std::uint32_t f) {
     if (!shaft.misses(all[f].box)) visit(f);
   });
 }
@@ -160,7 +177,7 @@ void GatherLists::split(const LatticeBox& box, std::uint32_t j, std::uint32_t en
   if (of_group_[object_].count <= kShort) return;
   const LeanShaft shaft(group_box_, box);
   const std::span<const Facet> all = facets();
-  const std::uint32_t first = parts_ > 0 ? part_[parts_ - 1].first + part_[parts_ - 1].count : kOfMesh + kOfGroup;
+  const std::uint32_t first = parts_ > 0 ? part_[parts_ - 1].first + part_[parts_ - 1].count : kOfRegion + kOfGroup;
   if (parts_ > 0) {
     const Part above = part_[parts_ - 1];
     if (above.count <= kShort || first + above.count > kListedFacets) return;

@@ -1,11 +1,11 @@
 // What can come between the sub-patches of a patch and what sends to them (ours; paper 3.1).
 //
 // A final gather asks for each patch and each of hundreds of nodes. Lists of facets are narrowed in four steps, each
-// from the one before: from all of the receiving mesh to all of an object that sends (by the tree of
-// visibility/blockers.h), from one patch to the object, and from it to the blocks that are split and to the node
-// itself (by the lean shaft of ambient/sight.h). A list that finds no room is found again where it is needed, so room
-// changes no answer. With flags off the same lists are made, since what is clear decides how finely light is gathered;
-// segments are then tested against all triangles.
+// from the one before: from a region of the receiving mesh (a block of a few patches) to all of an object that sends
+// (by the tree of visibility/blockers.h), from one patch to the object, and from it to the blocks that are split and to
+// the node itself (by the lean shaft of ambient/sight.h). A list that finds no room is found again where it is needed.
+// With flags off the same lists are made, since what is clear decides how finely light is gathered; segments are then
+// tested against all triangles.
 // Bytes: 2 kListedFacets, 4 a facet, 24 + 16 an object; with flags off the tree besides.
 #pragma once
 
@@ -30,8 +30,8 @@ class GatherLists {
   Status take(Arena& arena, const Surfaces& surfaces);
   static std::uint64_t bytes(const Scene& scene, const Geometry& geometry, FlagMode flags);
 
-  /// Patches of mesh_at[place] come next.
-  void start_mesh(std::uint32_t place);
+  /// Patches of this block of mesh_at[place] come next; of the whole mesh, if the node is a patch.
+  void start_region(std::uint32_t place, std::uint32_t node);
   /// Segments start in this box.
   void start_group(const LatticeBox& box);
   /// Nodes of a mesh of this object come next, ascending.
@@ -56,17 +56,17 @@ class GatherLists {
   };
   static constexpr std::uint32_t kDeepest = 48;
   // Parts of `words_`.
-  static constexpr std::uint32_t kOfMesh = kListedFacets * 5 / 8, kOfGroup = kListedFacets / 4;
+  static constexpr std::uint32_t kOfRegion = kListedFacets * 5 / 8, kOfGroup = kListedFacets / 4;
 
   template <class Visit>
   void visit_all(Visit visit);
   template <class Visit>
-  void visit_mesh_list(Visit visit);
+  void visit_region_list(Visit visit);
   template <class Visit>
   void visit_group_list(Visit visit);
   std::span<const Facet> facets();
   bool listable() { return facets().size() <= 0x10000; }
-  void find_mesh_list();
+  void find_region_list();
   void find_group_list();
 
   Intersector& intersector_;
@@ -75,11 +75,11 @@ class GatherLists {
   std::span<std::uint16_t> words_;
   std::span<std::uint32_t> pair_;
   std::span<LatticeBox> object_box_;
-  std::span<List> of_mesh_, of_group_;  // by object
-  std::uint32_t mesh_used_ = 0, group_used_ = 0;
+  std::span<List> of_region_, of_group_;  // by object
+  std::uint32_t region_used_ = 0, group_used_ = 0;
   std::uint32_t object_ = 0;
-  LatticeBox mesh_box_, group_box_;
-  bool inside_ = false;  // the group's box lies in the mesh's
+  LatticeBox region_box_, group_box_;
+  bool inside_ = false;  // the group's box lies in the region's
   Link link_;
   Aim aim_;
   Part part_[kDeepest];

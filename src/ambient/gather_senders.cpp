@@ -76,7 +76,8 @@ void GatherSenders::note_patch(std::span<const float> ambient_lx, std::uint32_t 
     double sends[3] = {0, 0, 0};
     for (std::uint32_t c = 0; c < channels_; ++c) {
       const std::size_t value = at * channels_ + c;
-      sends[c] = rho.c[c] * (static_cast<double>(direct_->sub_patch_lx[value]) + static_cast<double>(ambient_lx[value]));
+      sends[c] =
+          rho.c[c] * (static_cast<double>(direct_->sub_patch_lx[value]) + static_cast<double>(ambient_lx[value]));
     }
     const double level = level_of(sends);
     sum += level;

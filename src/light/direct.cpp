@@ -171,7 +171,8 @@ std::size_t sub_patch_factors(const Scene& scene, const Options& options) {
 bool take_sub_patches(const Scene& scene, const Options& options, Arena& arena, DirectLight& direct) {
   return arena.take("direct illuminance", std::size_t{scene.sub_patch_count} * scene.channels, direct.sub_patch_lx) &&
          arena.take("hidden sub-patches", scene.sub_patch_count, direct.hidden) &&
-         arena.take("form factors of sub-patches to lights", sub_patch_factors(scene, options), direct.sub_patch_factor);
+         arena.take("form factors of sub-patches to lights", sub_patch_factors(scene, options),
+                    direct.sub_patch_factor);
 }
 
 /// All or none.
@@ -198,7 +199,9 @@ Status light_directly(const Scene& scene, const Geometry& geometry, std::span<co
                       const Options& options, Intersector& intersector, const Progress& progress, Arena& arena,
                       DirectLight& direct, Statistics& statistics, DirectKeeps keeps) {
   const bool first = keeps == DirectKeeps::kPatches;
-  if (!(first ? take_patches(scene, arena, direct) : take_sub_patches(scene, options, arena, direct))) return arena.refused();
+  if (!(first ? take_patches(scene, arena, direct) : take_sub_patches(scene, options, arena, direct))) {
+    return arena.refused();
+  }
   const ArenaScratch scratch(arena);
   const IntersectorScratch seeking(intersector);
   if (!intersector.start(arena)) return arena.refused();
