@@ -70,7 +70,7 @@ void plan_picture(const Model& model, MemoryPlan& plan) {
   const std::uint64_t maps = map_value_bytes(scene);
   plan.add("ambient maps", "4 c s", maps, kMap | kPicture);
   plan.add("spreading over a mesh, or gathering", "9 a patch + 8 a row of sub-patches, of the largest mesh; --gather: "
-           "surfaces + possible blockers + 4 c blocks + 2 a node + 16,384 + 4 facets + 40 objects + 3,584",
+           "surfaces + possible blockers + 4 c blocks + 2 a node + 16,384 + 4 facets + 48 objects + 9,000",
            maps_bytes(model, SurfacesKeep::kNothing) - maps, kMap);
   plan.add("drawing, or placing again", "2 c s + 8193 + (4 c + 3) width + 4 rows + 4 drawn + 392 active triangles",
            larger(model.geometry.placing_bytes, model.picture_scratch), kPicture);

@@ -5,7 +5,7 @@ namespace shodo {
 namespace {
 
 // Relative to the error of a node.
-constexpr double kTiny = 0.6;
+constexpr double kTiny = 0.8, kTiniest = 0.4;  // the last: what the object's last segment met is good enough
 
 constexpr double kSmallest = 16;      // so many times smaller than the mean, patches gather as roughly as any
 
@@ -189,10 +189,15 @@ void GatherGroup::gather_tiny(const Look& look) {
   const double factor = look.over_i * look.over_j * area / ((kPi * look.squared + area) * look.squared);
   const std::uint32_t turn = gather_hash(node_, look.node);
   GatherPoint& point = points_[turn % points_.size()];
-  scene_.lists.aim(look.node);
-  const std::uint32_t origin = turn >> 4 & 3, end = turn >> 6 & (s.cached_points - 1);
+  GatherLists::Seen& seen = scene_.lists.seen();
+  if (look.bound > kTiniest * error_ || seen == GatherLists::Seen::kNotYet) {
+    scene_.lists.aim(look.node);
+    const std::uint32_t origin = turn >> 4 & 3, end = turn >> 6 & (s.cached_points - 1);
+    const bool blocked = scene_.lists.blocked(point.from[origin], s.samples(look.node)[end]);
+    seen = blocked ? GatherLists::Seen::kBlocked : GatherLists::Seen::kFree;
+  }
   shared_variance_ += factor * factor * 0.0625;
-  if (scene_.lists.blocked(point.from[origin], s.samples(look.node)[end])) return;
+  if (seen == GatherLists::Seen::kBlocked) return;
   shared_factor_ += factor;
   for (std::uint32_t c = 0; c < s.scene->channels; ++c) {
     shared_lx_[c] += factor * look.radiosity[c];

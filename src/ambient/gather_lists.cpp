@@ -114,7 +114,8 @@ void GatherLists::visit_all(Visit visit) {
 
 void GatherLists::find_region_list() {
   List& list = of_region_[object_];
-  list = {region_used_, 0};
+  list.first = region_used_;
+  list.count = 0;
   bool fits = listable();
   visit_all([&](std::uint32_t f) {
     if (region_used_ + list.count >= kOfRegion) {
@@ -140,7 +141,8 @@ void GatherLists::visit_region_list(Visit visit) {
 
 void GatherLists::find_group_list() {
   List& list = of_group_[object_];
-  list = {kOfRegion + group_used_, 0};
+  list.first = kOfRegion + group_used_;
+  list.count = 0;
   bool fits = listable();
   const LeanShaft shaft(group_box_, object_box_[object_]);
   const std::span<const Facet> all = facets();

@@ -6,7 +6,7 @@
 // the node itself (by the lean shaft of ambient/sight.h). A list that finds no room is found again where it is needed.
 // With flags off the same lists are made, since what is clear decides how finely light is gathered; segments are then
 // tested against all triangles.
-// Bytes: 2 kListedFacets, 4 a facet, 24 + 16 an object; with flags off the tree besides.
+// Bytes: 2 kListedFacets, 4 a facet, 24 + 24 an object; with flags off the tree besides.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +24,9 @@ inline constexpr std::uint32_t kListedFacets = 8192;
 
 class GatherLists {
  public:
+  /// What the last segment from the group to an object met.
+  enum class Seen : std::uint32_t { kNotYet, kFree, kBlocked };
+
   explicit GatherLists(Intersector& intersector) : intersector_(intersector) {}
 
   /// After the intersector was started. Errors: kMemory.
@@ -36,6 +39,8 @@ class GatherLists {
   void start_group(const LatticeBox& box);
   /// Nodes of a mesh of this object come next, ascending.
   void start_object(std::uint32_t object);
+
+  Seen& seen() { return of_group_[object_].seen; }
 
   /// A node is split; its parts lie in `box` and before `end`.
   void split(const LatticeBox& box, std::uint32_t j, std::uint32_t end);
@@ -50,6 +55,7 @@ class GatherLists {
   static constexpr std::uint32_t kNotYet = 0xFFFFFFFF, kTooLong = 0xFFFFFFFE;
   struct List {
     std::uint32_t first = 0, count = kNotYet;
+    Seen seen = Seen::kNotYet;
   };
   struct Part {
     std::uint32_t end, first, count;
