@@ -3,6 +3,7 @@
 #include "ambient/ambient_memory.h"
 #include "ambient/coloured_panes.h"
 #include "ambient/mirror_share.h"
+#include "ambient/gather.h"
 #include "ambient/surfaces.h"
 #include "base/check.h"
 #include "light/mirror_light.h"
@@ -20,6 +21,10 @@ constexpr unsigned kAll = kLoad | kLight | kPicture;
 constexpr std::uint64_t rounded_up(std::uint64_t bytes) { return (bytes + 7) / 8 * 8; }
 
 std::uint64_t larger(std::uint64_t a, std::uint64_t b) { return a > b ? a : b; }
+
+std::uint64_t map_value_bytes(const Scene& scene) {
+  return rounded_up(4 * std::uint64_t{scene.sub_patch_count} * scene.channels);
+}
 
 std::uint64_t drawn_bytes(const Model& model) {
   return rounded_up(sizeof(DrawnTriangle) * std::uint64_t{model.geometry.drawn_count});
@@ -67,22 +72,21 @@ void plan_light(const Model& model, MemoryPlan& plan) {
   if (const std::uint64_t optics = ambient_optics_bytes(model); optics > 0) {
     plan.add(PlanPart::kAmbientOptics, optics, kAmbient);
   }
-  plan.add(PlanPart::kSubPatches, direct_sub_patch_bytes(scene),
-           kAgain | kMap | kPicture);
+  plan.add(PlanPart::kSubPatches, direct_sub_patch_bytes(scene, options), kAgain | kMap | kPicture);
 }
 
 /// Nothing for scenes without planes.
 void plan_planes(const Model& model, MemoryPlan& plan) {
   if (model.scene.planes.empty()) return;
   plan.add(PlanPart::kPlanes, plane_map_bytes(model.scene), kAgain | kMap | kPicture);
-  plan.add(PlanPart::kMeasuring, gather_bytes(model.scene), kAgain);
+  plan.add(PlanPart::kMeasuring, plane_gather_bytes(model.scene), kAgain);
 }
 
 void plan_picture(const Model& model, MemoryPlan& plan) {
   const Scene& scene = model.scene;
-  const std::uint64_t maps = rounded_up(4 * std::uint64_t{scene.sub_patch_count} * scene.channels);
+  const std::uint64_t maps = map_value_bytes(scene);
   plan.add(PlanPart::kMaps, maps, kMap | kPicture);
-  plan.add(PlanPart::kSpreading, map_bytes(scene, model.options) - maps, kMap);
+  plan.add(PlanPart::kSpreading, maps_bytes(model, SurfacesKeep::kNothing) - maps, kMap);
   plan.add(PlanPart::kDrawing, larger(model.geometry.placing_bytes, model.picture_scratch), kPicture);
 }
 
@@ -121,11 +125,13 @@ PartText plan_part_text(PlanPart part) {
        "16 c + 8 a node (+ 2 with rules 1 and 2, 16 with 2+) + one "
        "row + the coarse correction; rows: what is left"},
       {"ambient light by channel, over mirrors", "8 c n where panes are coloured, 24 c n with --mirror-light on"},
-      {"direct light of the sub-patches", "(4 c + 1) s; spare: given up to the rows"},
+      {"direct light of the sub-patches", "(4 c + 1) s, (4 c + 3) s with --gather on; spare: given up to the rows"},
       {"light of measuring planes", "(8 c + 1) sub-patches of planes"},
       {"while measuring", "(44 + 8 c) sub-patches of a plane's patch"},
       {"ambient maps", "4 c s"},
-      {"spreading over a mesh", "9 a patch + 8 a row of sub-patches, of the largest mesh"},
+      {"spreading over a mesh, or gathering",
+       "9 a patch + 8 a row of sub-patches, of the largest mesh; --gather: surfaces + possible blockers + 4 c blocks + "
+       "2 a node + 16,384 + 4 facets + 48 objects + 9,000"},
       {"drawing, or placing again", "2 c s + 8193 + (4 c + 3) width + 4 rows + 10 drawn + 208 active triangles"},
   };
   static_assert(sizeof kTexts / sizeof(PartText) == static_cast<std::size_t>(PlanPart::kDrawing) + 1);
@@ -142,6 +148,13 @@ std::uint64_t MemoryPlan::peak() const {
   std::uint64_t most = 0;
   for (const std::uint64_t bytes : stage) most = larger(most, bytes);
   return most;
+}
+
+std::uint64_t maps_bytes(const Model& model, SurfacesKeep keep) {
+  const std::uint64_t spread = map_bytes(model.scene, model.options);
+  if (!model.options.gathers()) return spread;
+  return larger(spread,
+                map_value_bytes(model.scene) + gather_bytes(model.scene, model.geometry, model.options, keep));
 }
 
 std::uint64_t drawn_and_picture_bytes(const Model& model) {
@@ -164,15 +177,15 @@ bool keeps_geometry(const Model& model) {
   const std::uint64_t flags = features::aims(options.flags) ? FlagTables::bytes(scene) : 0;
   const std::uint64_t blockers = Intersector::bytes(model.geometry, options.flags);
   const std::uint64_t patches = model.after_patches + flags + direct_patch_bytes(scene);
-  const std::uint64_t solved = patches + ambient_result_bytes(scene) + direct_sub_patch_bytes(scene) +
-                               plane_map_bytes(scene);
+  const std::uint64_t sub_patches = direct_sub_patch_bytes(scene, options);
+  const std::uint64_t solved = patches + ambient_result_bytes(scene) + sub_patches + plane_map_bytes(scene);
   const std::uint64_t ambient = smallest_ambient_bytes(scene, model.geometry, options, SurfacesKeep::kGeometry);
   const std::uint64_t rows = expected_row_bytes(scene, options);
   // Geometry costs less to find again than the direct light that would have to make room for it.
   const std::uint64_t optics = ambient_optics_bytes(model);
-  std::uint64_t most = patches + blockers + ambient + optics + rows + (rows > 0 ? direct_sub_patch_bytes(scene) : 0);
-  most = larger(most, solved + blockers + Sources::bytes(scene) + gather_bytes(scene) + mirror_bytes(model));
-  most = larger(most, solved + map_bytes(scene, options));
+  std::uint64_t most = patches + blockers + ambient + optics + rows + (rows > 0 ? sub_patches : 0);
+  most = larger(most, solved + blockers + Sources::bytes(scene) + plane_gather_bytes(scene) + mirror_bytes(model));
+  most = larger(most, solved + maps_bytes(model, SurfacesKeep::kGeometry));
   return most <= model.arena.capacity();
 }
 

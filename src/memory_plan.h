@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "ambient/surfaces.h"
+
 namespace shodo {
 
 struct Model;
@@ -53,6 +55,9 @@ MemoryPlan plan_memory(const Model& model, bool picture);
 
 /// Whether there is room for the patches and the geometry of all nodes; the plan is made without.
 bool keeps_geometry(const Model& model);
+
+/// Arena bytes of the maps, interpolated and gathered.
+std::uint64_t maps_bytes(const Model& model, SurfacesKeep keep);
 
 /// Arena bytes of drawing without the drawn triangles at hand.
 std::uint64_t drawn_and_picture_bytes(const Model& model);

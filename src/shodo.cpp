@@ -7,6 +7,7 @@
 
 #include <new>
 
+#include "ambient/gather.h"
 #include "ambient/mirror_share.h"
 #include "base/self_check.h"
 #include "base/text.h"
@@ -110,9 +111,11 @@ void end_stage(Model& model, MemoryStage stage) {
 Status keep_sub_patches(Model& model, const Progress& progress) {
   Arena& arena = model.arena;
   DirectLight& direct = model.direct;
-  const bool held = !direct.hidden.empty() && arena.holds(direct.hidden) && arena.holds(direct.sub_patch_lx);
+  const bool held = !direct.hidden.empty() && arena.holds(direct.hidden) && arena.holds(direct.sub_patch_lx) &&
+                    arena.holds(direct.sub_patch_factor);
   arena.pin_spares(held ? arena.spares() : 0);
-  if ((held || model.scene.sub_patch_count == 0) && map_bytes(model.scene, model.options) <= arena.left()) return {};
+  const SurfacesKeep keep = model.patches.empty() ? SurfacesKeep::kNothing : SurfacesKeep::kGeometry;
+  if ((held || model.scene.sub_patch_count == 0) && maps_bytes(model, keep) <= arena.left()) return {};
   arena.release_spares(model.loaded_spares);
   arena.pin_spares(0);
   const Statistics counted = model.statistics;
@@ -160,6 +163,7 @@ void give_up_patches(Model& model) {
   if (with_direct) {
     move_down(model.direct.sub_patch_lx, by);
     move_down(model.direct.hidden, by);
+    move_down(model.direct.sub_patch_factor, by);
     model.maps.direct_lx = model.direct.sub_patch_lx;
     model.maps.hidden = model.direct.hidden;
   }
@@ -289,6 +293,11 @@ Status solve_maps(Model& model, const Progress& progress) {
   if (!progress.go_on(Stage::kMap, 0, 1)) return interrupted();
   status = map_illuminance(model.scene, model.patches, model.direct, model.ambient, model.options, model.arena,
                            model.maps);
+  if (status.done() && model.options.gathers()) {
+    status = gather_illuminance(model.scene, model.geometry, model.patches, model.direct, model.ambient,
+                                model.intersector, model.options, progress, model.arena, model.maps.ambient_lx,
+                                model.statistics);
+  }
   end_stage(model, MemoryStage::kMap);
   model.solved = status.done();
   return with_model(status, model.overhead);

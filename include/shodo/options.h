@@ -20,6 +20,9 @@ struct Rules {
 };
 
 struct Options {
+  /// Whether sub-patches gather.
+  bool gathers() const { return gather && !rules.rule1 && !rules.rule2 && !rules.rule2_repeated && !rules.rule3; }
+
   FlagMode flags = FlagMode::kAuto;     // lossless; the rules are none (deviation D9)
   Rules rules;
   double tolerance = 1e-4;             // bound on the solver's error, of the largest illuminance
@@ -32,6 +35,9 @@ struct Options {
   std::uint32_t segments_mixed = 64;   // the same, where some of the first are blocked and some not
   bool scale_rows = true;
   bool interpolate = true;
+  bool gather = false;                 // every sub-patch gathers its ambient light (doc/gather.md); not with rules 1,
+                                       // 2, 2+ and 3, which are the paper's, as its interpolation is
+  double gather_error = 0;             // of one node's light there, of the mean illuminance; 0: the default
   std::uint32_t row_value_bits = 16;   // 16 or 64
   bool mirror_light = false;           // mirrors send light on, once
   std::uint32_t width = 1280;          // pixels, 1 .. 16384

@@ -199,7 +199,7 @@ Status gather_planes(const SolvedPatches& solved, Intersector& intersector, cons
   return {};
 }
 
-std::uint64_t gather_bytes(const Scene& scene) {
+std::uint64_t plane_gather_bytes(const Scene& scene) {
   const auto block = [](std::uint64_t bytes) { return (bytes + 7) / 8 * 8; };
   const std::uint64_t points = most_points(scene);
   return block(sizeof(Point) * points) + block(sizeof(LatticePoint) * points) + 8 * points * scene.channels;

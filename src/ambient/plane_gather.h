@@ -36,6 +36,6 @@ Status gather_planes(const SolvedPatches& solved, Intersector& intersector, cons
                      PlaneMaps& maps);
 
 /// Arena bytes of gather_planes at most.
-std::uint64_t gather_bytes(const Scene& scene);
+std::uint64_t plane_gather_bytes(const Scene& scene);
 
 }  // namespace shodo

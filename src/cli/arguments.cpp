@@ -193,6 +193,13 @@ bool take_show(std::string_view text, Arguments& a) {
   return text == "patches" || text == "sub-patches";
 }
 
+bool take_gather(std::string_view text, Arguments& a) {
+  a.options.gather_error = 0;
+  if (on_or_off(text, a.options.gather)) return true;
+  a.options.gather = true;
+  return number_in(text, 1e-9, 1, a.options.gather_error);
+}
+
 bool take_text(std::string_view text, std::string& value) {
   value = text;
   return !text.empty();
@@ -239,6 +246,10 @@ constexpr OptionRule kOptions[] = {
      [](std::string_view t, Arguments& a) { return on_or_off(t, a.options.mirror_light); }},
     {"--interpolate", "on|off", kForAll, "on or off", "ambient light interpolated between patches (on)",
      [](std::string_view t, Arguments& a) { return on_or_off(t, a.options.interpolate); }},
+    {"--gather", "on|off|REL", kForAll, "on, off, or a number from 1e-9 to 1",
+     "every sub-patch gathers its ambient light, REL: error of one sender's, of the mean; not with rules 1, 2, 2+, 3 "
+     "(off)",
+     take_gather},
     {"--row-values", "16|64", kForAll, "16 or 64", "bits of a stored form factor (16)",
      [](std::string_view t, Arguments& a) {
        return one_of(t, {16, 64}, a.options.row_value_bits);

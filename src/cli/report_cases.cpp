@@ -12,6 +12,12 @@ constexpr Rules kAllRules{.rule1 = true, .rule2 = true, .rule3 = true};
 
 constexpr Rules blocks(double error) { return {.blocks = true, .blocks_error = error}; }
 
+template <int kTenThousandths>
+void gather_error(Options& options) {
+  options.gather = true;
+  options.gather_error = kTenThousandths * 1e-4;
+}
+
 /// A line of the list; what is 0 or empty is as in the base.
 struct Line {
   CaseGroup group;
@@ -49,6 +55,13 @@ constexpr Line kLines[] = {
     {CaseGroup::kBlocks, FlagMode::kAuto, {.rule2_repeated = true, .blocks = true}},
     {CaseGroup::kBlocks, FlagMode::kAuto, blocks(0), 1, 1, 1},
     {CaseGroup::kBlocks, FlagMode::kAuto, blocks(0.01), 1, 1, 1},
+
+    // Sub-patches that gather.
+    {CaseGroup::kGather, FlagMode::kAuto, blocks(0), 1, 0, 0, "gather on", [](Options& o) { o.gather = true; }},
+    {CaseGroup::kGather, FlagMode::kAuto, blocks(0), 1, 0, 0, "gather 0.0002", gather_error<2>},
+    {CaseGroup::kGather, FlagMode::kAuto, blocks(0), 1, 0, 0, "gather 0.005", gather_error<50>},
+    {CaseGroup::kGather, FlagMode::kAuto, blocks(0.001), 1, 0, 0, "gather on", [](Options& o) { o.gather = true; }},
+    {CaseGroup::kGather, FlagMode::kAuto, kNoRules, 1, 0, 0, "gather on", [](Options& o) { o.gather = true; }},
 
     // Segments a pair.
     {CaseGroup::kSegments, FlagMode::kAuto, kNoRules, 1, 1, 1},
@@ -98,6 +111,7 @@ std::string_view group_name(CaseGroup group) {
     case CaseGroup::kFlags: return "flags";
     case CaseGroup::kRules: return "the paper's rules";
     case CaseGroup::kBlocks: return "blocks";
+    case CaseGroup::kGather: return "gather";
     case CaseGroup::kSegments: return "segments";
     case CaseGroup::kPatches: return "patch size";
     case CaseGroup::kOther: return "other settings";
@@ -132,6 +146,7 @@ Options reference_options(const Options& base) {
   options.scale_rows = true;
   options.interpolate = true;
   options.mirror_light = true;
+  options.gather = false;
   return options;
 }
 
@@ -180,7 +195,8 @@ bool same_settings(const Options& a, const Options& b) {
   return a.flags == b.flags && same_rules(a.rules, b.rules) && a.refine == b.refine &&
          a.segments_first == b.segments_first && a.segments_mixed == b.segments_mixed &&
          a.interpolate == b.interpolate && a.scale_rows == b.scale_rows && a.row_value_bits == b.row_value_bits &&
-         a.tiers == b.tiers && a.mirror_light == b.mirror_light;
+         a.tiers == b.tiers && a.mirror_light == b.mirror_light && a.gather == b.gather &&
+         a.gather_error == b.gather_error;
 }
 
 const ReportCase* find_case(const std::vector<ReportCase>& cases, FlagMode flags, const Rules& rules) {

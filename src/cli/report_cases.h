@@ -11,8 +11,8 @@
 namespace shodo {
 
 /// What a case is about; decides its mark in the plots.
-enum class CaseGroup : std::uint8_t { kFlags, kRules, kBlocks, kSegments, kPatches, kOther };
-inline constexpr std::uint32_t kCaseGroups = 6;
+enum class CaseGroup : std::uint8_t { kFlags, kRules, kBlocks, kGather, kSegments, kPatches, kOther };
+inline constexpr std::uint32_t kCaseGroups = 7;
 std::string_view group_name(CaseGroup group);
 
 struct ReportCase {

@@ -11,6 +11,7 @@
 #include "light/receiver.h"
 #include "light/sources.h"
 #include "light/sub_patch_light.h"
+#include "scene/sub_patches.h"
 
 namespace shodo {
 
@@ -31,46 +32,17 @@ Status interrupted() {
   return status;
 }
 
+/// In 1/65535.
+std::uint16_t fraction(double x) { return static_cast<std::uint16_t>((x < 1 ? x : 1) * 65535 + 0.5); }
+
 /// A light of 1e308 cd is a scene's right; infinity in an output is not.
 double finite(double x) { return x < std::numeric_limits<float>::max() ? x : std::numeric_limits<float>::max(); }
 
-/// Sub-patch k of a patch, counted from the mesh's first; ascending in k. A triangle's has su^2, others su sv.
-class SubPatchesOfPatch {
- public:
-  SubPatchesOfPatch(const Mesh& mesh, std::uint32_t local_patch)
-      : mesh_(&mesh), patch_(patch_index(mesh, local_patch)) {}
-
-  /// The next one, or kNone after the last.
-  std::uint32_t next() {
-    if (mesh_->kind != MeshKind::kTriangle) {
-      if (k_ == mesh_->su * mesh_->sv) return kNone;
-      column_ = k_ % mesh_->su;
-      row_ = k_ / mesh_->su;
-      const std::uint32_t u = patch_.u * mesh_->su + column_, v = patch_.v * mesh_->sv + row_;
-      ++k_;
-      return v * mesh_->map_width() + u;
-    }
-    // The parallelogram of an upright and an inverted patch holds 2 su^2; they share it along the diagonal.
-    const std::uint32_t n = mesh_->su;
-    while (k_ < 2 * n * n) {
-      const std::uint32_t tip = k_ % 2, u = k_ / 2 % n, v = k_ / 2 / n;
-      ++k_;
-      if ((u + v + tip >= n) != patch_.inverted) continue;
-      return triangle_piece_order(mesh_->map_width(), {patch_.u * n + u, patch_.v * n + v, tip == 1});
-    }
-    return kNone;
-  }
-  /// Of the last one on a quadrilateral.
-  PatchPlace place() const {
-    const double s = 1.0 / mesh_->su, t = 1.0 / mesh_->sv;
-    return {(column_ + 0.5) * s - 0.5, (row_ + 0.5) * t - 0.5, 0.5 * s, 0.5 * t};
-  }
-
- private:
-  const Mesh* mesh_;
-  PieceIndex patch_;
-  std::uint32_t k_ = 0, column_ = 0, row_ = 0;
-};
+/// Of the last sub-patch on a quadrilateral.
+PatchPlace place_of(const Mesh& mesh, const SubPatchesOfPatch& at) {
+  const double s = 1.0 / mesh.su, t = 1.0 / mesh.sv;
+  return {(at.column() + 0.5) * s - 0.5, (at.row() + 0.5) * t - 0.5, 0.5 * s, 0.5 * t};
+}
 
 /// Whether a piece is under 32 lattice steps wide, so that rounding moves its samples noticeably.
 bool is_thin(const Geometry& geometry, const Piece& piece) {
@@ -145,7 +117,7 @@ bool DirectStage::light_patch(std::uint32_t m, std::uint32_t local, const Progre
   start_patch(m, cell, local);
   for (std::uint32_t k = sub_patches.next(); k != kNone; k = sub_patches.next()) {
     if (done_ % kProgressInterval == 0 && !progress.go_on(Stage::kDirect, done_, scene_.sub_patch_count)) return false;
-    light_one(m, cell, k, sub_patches.place(), sums);
+    light_one(m, cell, k, place_of(mesh, sub_patches), sums);
     ++done_;
   }
   store(mesh.first_patch + local, sums);
@@ -198,6 +170,7 @@ void DirectStage::light_one(std::uint32_t m, std::uint32_t cell, std::uint32_t l
     return;
   }
   sums.visible_area += area;
+  if (!direct_.sub_patch_factor.empty()) direct_.sub_patch_factor[index] = fraction(light.light_factor);
   for (std::uint32_t c = 0; c < scene_.channels; ++c) {
     const double lux = finite(light.lux[c]);
     if (!direct_.sub_patch_lx.empty()) direct_.sub_patch_lx[index * scene_.channels + c] = static_cast<float>(lux);
@@ -222,22 +195,31 @@ bool take_patches(const Scene& scene, Arena& arena, DirectLight& direct) {
          arena.take("form factors to lights", patches, direct.light_form_factor);
 }
 
-bool take_sub_patches(const Scene& scene, Arena& arena, DirectLight& direct) {
-  return arena.take("direct illuminance", std::size_t{scene.sub_patch_count} * scene.channels, direct.sub_patch_lx) &&
-         arena.take("hidden sub-patches", scene.sub_patch_count, direct.hidden);
+std::size_t sub_patch_factors(const Scene& scene, const Options& options) {
+  return options.gathers() ? scene.sub_patch_count : 0;
 }
 
-/// Both or none.
-void take_spare_sub_patches(const Scene& scene, Arena& arena, DirectLight& direct) {
+bool take_sub_patches(const Scene& scene, const Options& options, Arena& arena, DirectLight& direct) {
+  return arena.take("direct illuminance", std::size_t{scene.sub_patch_count} * scene.channels, direct.sub_patch_lx) &&
+         arena.take("hidden sub-patches", scene.sub_patch_count, direct.hidden) &&
+         arena.take("form factors of sub-patches to lights", sub_patch_factors(scene, options),
+                    direct.sub_patch_factor);
+}
+
+/// All or none.
+void take_spare_sub_patches(const Scene& scene, const Options& options, Arena& arena, DirectLight& direct) {
   const std::uint32_t before = arena.spares();
   const std::size_t values = std::size_t{scene.sub_patch_count} * scene.channels;
   if (arena.take_spare("direct illuminance", values, direct.sub_patch_lx) &&
-      arena.take_spare("hidden sub-patches", scene.sub_patch_count, direct.hidden)) {
+      arena.take_spare("hidden sub-patches", scene.sub_patch_count, direct.hidden) &&
+      arena.take_spare("form factors of sub-patches to lights", sub_patch_factors(scene, options),
+                       direct.sub_patch_factor)) {
     return;
   }
   arena.release_spares(before);
   direct.sub_patch_lx = {};
   direct.hidden = {};
+  direct.sub_patch_factor = {};
 }
 
 constexpr std::uint64_t block(std::uint64_t bytes) { return (bytes + 7) / 8 * 8; }
@@ -248,7 +230,9 @@ Status light_directly(const Scene& scene, const Geometry& geometry, std::span<co
                       const Options& options, Intersector& intersector, const Progress& progress, Arena& arena,
                       DirectLight& direct, Statistics& statistics, DirectKeeps keeps) {
   const bool first = keeps == DirectKeeps::kPatches;
-  if (!(first ? take_patches(scene, arena, direct) : take_sub_patches(scene, arena, direct))) return arena.refused();
+  if (!(first ? take_patches(scene, arena, direct) : take_sub_patches(scene, options, arena, direct))) {
+    return arena.refused();
+  }
   const ArenaScratch scratch(arena);
   const IntersectorScratch seeking(intersector);
   if (!intersector.start(arena)) return arena.refused();
@@ -257,7 +241,7 @@ Status light_directly(const Scene& scene, const Geometry& geometry, std::span<co
   if (!status.done()) return status;
   MirrorLight mirrors(sources);
   if (options.mirror_light && !mirrors.take(arena)) return arena.refused();
-  if (first) take_spare_sub_patches(scene, arena, direct);
+  if (first) take_spare_sub_patches(scene, options, arena, direct);
   DirectStage stage(scene, geometry, sources, mirrors, direct);
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
     for (std::uint32_t local = 0; local < scene.meshes[m].patch_count(); ++local) {
@@ -277,9 +261,9 @@ std::uint64_t direct_patch_bytes(const Scene& scene) {
   return block(8 * n * scene.channels) + 2 * block(4 * n);
 }
 
-std::uint64_t direct_sub_patch_bytes(const Scene& scene) {
+std::uint64_t direct_sub_patch_bytes(const Scene& scene, const Options& options) {
   const std::uint64_t s = scene.sub_patch_count;
-  return block(4 * s * scene.channels) + block(s);
+  return block(4 * s * scene.channels) + block(s) + block(2 * sub_patch_factors(scene, options));
 }
 
 }  // namespace shodo

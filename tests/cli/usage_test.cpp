@@ -19,7 +19,7 @@ TEST(CommandLine, HelpNamesEveryOptionOfTheContract) {
         "--flags",       "--rules",  "--tolerance",  "--patch",       "--sub-patch",  "--refine",  "--tiers",
         "--segments",    "--size",   "--scale-rows", "--interpolate", "--row-values", "--camera",  "--antialias",
         "--false-colour", "--isolux", "--show",      "--csv",         "--stats",      "--summary", "--quiet",
-        "--help",        "--version"}) {
+        "--gather",      "--help",   "--version"}) {
     EXPECT_TRUE(contains(help.out, word)) << word;
   }
   EXPECT_EQ(run({"render", "--help"}).out, help.out);
@@ -106,6 +106,7 @@ TEST(CommandLine, EveryMistakeEndsWithStatus2AndOneLineThatNamesIt) {
       {render({"--segments", "16,64,256"}), "--segments: expected"},
       {render({"--scale-rows", "yes"}), "--scale-rows: expected on or off"},
       {render({"--interpolate", "1"}), "--interpolate: expected on or off"},
+      {render({"--gather", "2"}), "--gather: expected on, off, or a number from 1e-9 to 1"},
       {render({"--row-values", "32"}), "--row-values: expected 16 or 64"},
       {render({"--size", "640"}), "--size: expected"},
       {render({"--size", "0x8"}), "--size: expected"},
@@ -142,6 +143,7 @@ TEST(CommandLine, EveryOptionIsTakenAtBothEndsOfItsRange) {
       {"--refine", "4"},       {"--tiers", "near"},       {"--tiers", "1e-9"},       {"--tiers", "1"},
       {"--segments", "1,1"},   {"--segments", "256,256"}, {"--segments", "1,64"},    {"--scale-rows", "on"},
       {"--scale-rows", "off"}, {"--interpolate", "on"},   {"--interpolate", "off"},  {"--row-values", "16"},
+      {"--gather", "on"},      {"--gather", "off"},       {"--gather", "1e-4"},
       {"--row-values", "64"},  {"--size", "1x1"},         {"--size", "16384x16384"}, {"--antialias", "1"},
       {"--antialias", "4"},    {"--antialias", "16"},     {"--camera", "side"},      {"--quiet"},
       {"--flags", "auto"},     {"--flags", "scene"},      {"--rules", "all"},        {"--rules", "1,2,3:2.5"},

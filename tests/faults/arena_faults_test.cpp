@@ -17,6 +17,7 @@ struct Case {
   std::string scene;
   Rules rules;
   FlagMode flags = FlagMode::kAuto;
+  bool gather = false;
 };
 
 std::vector<Case> cases() {
@@ -25,7 +26,8 @@ std::vector<Case> cases() {
   repeated.rule2_repeated = true;
   blocks.blocks = true;
   return {{"sun.scn", none},   {"box.scn", none},      {"shapes.scn", none}, {"shapes.scn", none, FlagMode::kOff},
-          {"box.scn", paper},  {"box.scn", repeated},  {"shapes.scn", blocks}};
+          {"box.scn", paper},  {"box.scn", repeated},  {"shapes.scn", blocks},
+          {"shapes.scn", blocks, FlagMode::kOff, true}};
 }
 
 /// Load, solve and draw in memory that ends where it says.
@@ -34,6 +36,8 @@ struct Attempt {
     EXPECT_TRUE(files.read(c.scene, text));
     options.rules = c.rules;
     options.flags = c.flags;
+    options.gather = c.gather;
+    options.gather_error = 2e-2;
     options.width = 16;
     options.height = 12;
     options.antialias = 1;

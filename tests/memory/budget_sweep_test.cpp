@@ -19,6 +19,7 @@ struct Sweep {
 
   std::string scene;
   Rules rules;
+  bool gather = false;
   std::uint32_t refused = 0, done = 0, lit_again = 0, placed_again = 0, geometry_again = 0, rows_recomputed = 0;
 
   /// The picture, or nothing if the budget is refused, as it must be before anything is lit.
@@ -28,6 +29,8 @@ struct Sweep {
     EXPECT_TRUE(files.read(scene, text));
     Options options;
     options.rules = rules;
+    options.gather = gather;
+    options.gather_error = 2e-2;
     options.width = 32;
     options.height = 24;
     options.segments_first = 1;  // hundreds of runs
@@ -98,6 +101,12 @@ TEST(BudgetSweep, EveryBudgetGivesTheSameBytesOrIsRefused) {
 TEST(BudgetSweep, EveryBudgetGivesTheSameBytesWithBlocksToo) {
   Sweep shapes("shapes.scn", {.blocks = true});
   sweep(shapes, 100);
+}
+
+TEST(BudgetSweep, EveryBudgetGivesTheSameBytesWhereSubPatchesGather) {
+  Sweep shapes("shapes.scn", {.blocks = true});
+  shapes.gather = true;
+  sweep(shapes, 20);
 }
 
 TEST(BudgetSweep, EveryBudgetGivesTheSameBytesWhenColumnsComeBack) {

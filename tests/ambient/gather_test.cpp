@@ -1,0 +1,243 @@
+#include "ambient/gather.h"
+
+#include <cmath>
+
+#include "tests/ambient/ambient_scene.h"
+
+namespace shodo {
+namespace {
+
+/// A solved scene, its patches' light spread evenly over their sub-patches, and what those gather.
+struct Gathered {
+  Gathered(const std::string& text, const Options& options, const std::function<double(const Vec3&, std::uint32_t)>& e0)
+      : scene(text, options) {
+    scene.light(e0);
+    EXPECT_TRUE(scene.solve().done());
+    const Scene& s = scene.loaded.scene;
+    direct.resize(s.sub_patch_count * s.channels);
+    lx.resize(direct.size());
+    hidden.resize(s.sub_patch_count);
+    factors.resize(s.sub_patch_count);
+    for (const Mesh& mesh : s.meshes) {
+      for (std::uint32_t k = 0; k < mesh.sub_patch_count(); ++k) {
+        const std::size_t patch = mesh.first_patch + patch_of_sub_patch(mesh, k);
+        for (std::uint32_t c = 0; c < s.channels; ++c) {
+          const std::size_t at = (mesh.first_sub_patch + k) * std::size_t{s.channels} + c;
+          direct[at] = static_cast<float>(scene.lux[patch * s.channels + c]);
+          lx[at] = static_cast<float>(scene.ambient.patch_lx[patch * s.channels + c]);
+        }
+      }
+    }
+    scene.direct.sub_patch_lx = direct;
+    scene.direct.hidden = hidden;
+    scene.direct.sub_patch_factor = factors;
+    memory.resize(1 << 21);
+  }
+
+  Status gather(FlagMode flags = FlagMode::kAuto) {
+    Arena arena(memory.data(), memory.size() * 8);
+    Options options = scene.options;
+    options.flags = flags;
+    Intersector intersector(scene.geometry, scene.loaded.scene, flags);
+    EXPECT_TRUE(intersector.take_flags(arena));
+    const std::size_t before = arena.used();
+    const Status status = gather_illuminance(scene.loaded.scene, scene.geometry, scene.patches, scene.direct,
+                                             scene.ambient, intersector, options, {}, arena, lx, scene.statistics);
+    EXPECT_EQ(arena.used(), before);
+    const std::uint64_t bytes =
+        gather_bytes(scene.loaded.scene, scene.geometry, options, SurfacesKeep::kGeometry);
+    EXPECT_EQ(arena.peak(), before + bytes);
+    return status;
+  }
+
+  AmbientScene scene;
+  std::vector<float> direct, lx;
+  std::vector<std::uint8_t> hidden;
+  std::vector<std::uint16_t> factors;
+  std::vector<std::uint64_t> memory;
+};
+
+std::string with_sub_patches(std::string text, const std::string& counts) {
+  for (std::size_t at = text.find("sub 1 1"); at != std::string::npos; at = text.find("sub 1 1", at + 1)) {
+    text.replace(at, 7, "sub " + counts);
+  }
+  return text;
+}
+
+Options precise() {
+  Options options;
+  options.tolerance = 1e-10;
+  return options;
+}
+
+/// Rows sum to 1 here by scaling, so single precision is all that is lost.
+TEST(Gather, FurnaceGivesE0RhoOverOneMinusRhoOnEverySubPatch) {
+  for (const double rho : {0.3, 0.8}) {
+    Gathered box(grey(rho) + with_sub_patches(box_walls(4, 3, 2, 5, 4, 3, "white"), "3 2"), precise(),
+                 [](const Vec3&, std::uint32_t) { return 100.0; });
+    ASSERT_TRUE(box.gather().done());
+    const double expected = 100 * rho / (1 - rho);
+    for (const float lx : box.lx) EXPECT_NEAR(lx, expected, 1e-5 * expected);
+  }
+}
+
+std::string patchy(const std::string& material, std::initializer_list<double> c, int u, int v) {
+  std::string line = "quad " + material;
+  for (const double value : c) line += " " + std::to_string(value);
+  return line + " patches " + std::to_string(u) + " " + std::to_string(v) + " sub 1 1\n";
+}
+
+/// The mean over the sub-patch of the mesh that is nearest to a place.
+double value_at(const Gathered& g, std::uint32_t m, const Vec3& place) {
+  const Scene& s = g.scene.loaded.scene;
+  const Mesh& mesh = s.meshes[m];
+  double best = 1e30, value = 0;
+  for (std::uint32_t k = 0; k < mesh.sub_patch_count(); ++k) {
+    const double apart = length_squared(sub_patch_piece(s, mesh, k).centre() + s.origin - place);
+    if (apart >= best) continue;
+    best = apart;
+    value = static_cast<double>(g.lx[mesh.first_sub_patch + k]);
+  }
+  EXPECT_LT(best, 1e-4);
+  return value;
+}
+
+/// CIE 171 5.6, the values of references.md: one reflection, an open room, so nothing may be scaled up to 1.
+TEST(Gather, OneReflectionFromAFloorMatchesCie171Case56) {
+  Gathered room(grey(0.5) + "material black diffuse 0\nobject floor_\n" +
+                    patchy("white", {0, 0, 0, 4, 0, 0, 4, 4, 0, 0, 4, 0}, 8, 8) + "object wall\n" +
+                    patchy("black", {0, 0, 0, 0, 0, 3, 4, 0, 3, 4, 0, 0}, 18, 9) + "object ceiling_\n" +
+                    patchy("black", {0, 0, 3, 0, 4, 3, 4, 4, 3, 4, 0, 3}, 8, 9),
+                precise(), [](const Vec3&, std::uint32_t m) { return m == 0 ? 1000.0 : 0; });
+  ASSERT_TRUE(room.gather().done());
+  const double z[] = {.75, 1.25, 1.75, 2.25, 2.75}, wall[] = {35.901, 27.992, 21.639, 16.716, 12.967};
+  for (int k = 0; k < 5; ++k) EXPECT_NEAR(value_at(room, 1, {2, 0, z[k]}) / 5, wall[k], 0.01 * wall[k]) << z[k];
+  const double y[] = {.25, .75, 1.25, 1.75}, ceiling[] = {26.795, 30.939, 33.976, 35.567};
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_NEAR(value_at(room, 2, {2, y[k], 3}) / 5, ceiling[k], 0.01 * ceiling[k]) << y[k];
+  }
+}
+
+/// A room with a table-like slab and a bright spot on the floor.
+std::string furnished(double rho) {
+  return grey(rho) + with_sub_patches(box_walls(4, 3, 2.5, 8, 6, 5, "white"), "2 2") + "object slab\n" +
+         "quad white 1 1 0.8  2 1 0.8  2 2 0.8  1 2 0.8  patches 3 3 sub 1 1\n"
+         "quad white 1 1 0.7  1 2 0.7  2 2 0.7  2 1 0.7  patches 3 3 sub 1 1\n"
+         "quad white 1 1 0.7  2 1 0.7  2 1 0.8  1 1 0.8  patches 2 1 sub 1 1\n"
+         "quad white 1 2 0.7  1 2 0.8  2 2 0.8  2 2 0.7  patches 1 2 sub 1 1\n"
+         "quad white 1 1 0.7  1 1 0.8  1 2 0.8  1 2 0.7  patches 1 2 sub 1 1\n"
+         "quad white 2 1 0.7  2 2 0.7  2 2 0.8  2 1 0.8  patches 2 1 sub 1 1\n";
+}
+
+double spot(const Vec3& p, std::uint32_t m) { return m == 0 && p.x > 2 && p.y < 1.6 ? 5000.0 : 50.0; }
+
+/// By kernels from 3 x 3 places of a sub-patch to 8 x 8 places of each sub-patch, a segment each, everything in the
+/// file's order.
+double slowly_gathered(Gathered& g, std::uint32_t m, std::uint32_t local, Intersector& intersector) {
+  const Scene& s = g.scene.loaded.scene;
+  const Piece own = sub_patch_piece(s, s.meshes[m], local);
+  const Vec3 normal = normalised(own.vector_area());
+  double sum = 0;
+  for (int a = 0; a < 9; ++a) {
+    const Vec3 from = own.point((a % 3 + 0.5) / 3, (a / 3 + 0.5) / 3);
+    const LatticePoint start = sample_point(s, g.scene.geometry, m, 0, from);
+    for (std::uint32_t other = 0; other < s.meshes.size(); ++other) {
+      const Mesh& mesh = s.meshes[other];
+      for (std::uint32_t k = 0; other != m && k < mesh.sub_patch_count(); ++k) {
+        const Piece piece = sub_patch_piece(s, mesh, k);
+        const Vec3 area = (1.0 / 64) * piece.vector_area();
+        const std::size_t at = mesh.first_sub_patch + k;
+        const double sends = s.materials[mesh.material].diffuse.c[0] *
+                             (static_cast<double>(g.direct[at]) + static_cast<double>(g.lx[at]));
+        for (int b = 0; b < 64; ++b) {
+          const Vec3 to = piece.point((b % 8 + 0.5) / 8, (b / 8 + 0.5) / 8), way = to - from;
+          const double squared = length_squared(way), cosines = dot(normal, way) * -dot(area, way);
+          if (!(dot(normal, way) > 0) || !(cosines > 0)) continue;
+          if (intersector.blocked(start, sample_point(s, g.scene.geometry, other, 0, to),
+                                  {0, 1, LightSet::kAmbient}, Aim{})) {
+            continue;
+          }
+          sum += sends * cosines / (M_PI * squared * squared);
+        }
+      }
+    }
+  }
+  return sum / 9;
+}
+
+/// 3 % where the slab's shadow and its edges are: two to four segments a node, and contact with the wall.
+TEST(Gather, AgreesWithAGatherOverEverything) {
+  Gathered room(furnished(0.6), precise(), spot);
+  Gathered again(furnished(0.6), precise(), spot);
+  ASSERT_TRUE(again.gather().done());
+  Intersector off(room.scene.geometry);
+  const Scene& s = room.scene.loaded.scene;
+  double square = 0, count = 0, mean = 0, worst = 0;
+  for (std::uint32_t m = 0; m < s.meshes.size(); ++m) {
+    for (std::uint32_t k = 0; k < s.meshes[m].sub_patch_count(); k += 23) {
+      const std::size_t at = s.meshes[m].first_sub_patch + k;
+      const double slow = slowly_gathered(room, m, k, off), fast = static_cast<double>(again.lx[at]);
+      square += (slow - fast) * (slow - fast);
+      mean += slow + static_cast<double>(room.direct[at]);
+      worst = std::max(worst, std::abs(slow - fast));
+      ++count;
+    }
+  }
+  mean /= count;
+  RecordProperty("rms", std::to_string(std::sqrt(square / count) / mean));
+  RecordProperty("worst", std::to_string(worst / mean));
+  EXPECT_LT(std::sqrt(square / count), 0.02 * mean);
+}
+
+TEST(Gather, KeepsTheEnergyOfTheSolution) {
+  Gathered room(furnished(0.6), precise(), spot);
+  std::vector<float> before = room.lx;
+  ASSERT_TRUE(room.gather().done());
+  const Scene& s = room.scene.loaded.scene;
+  double gathered = 0, solved = 0;
+  for (const Mesh& mesh : s.meshes) {
+    for (std::uint32_t k = 0; k < mesh.sub_patch_count(); ++k) {
+      const double area = length(sub_patch_piece(s, mesh, k).vector_area());
+      gathered += area * static_cast<double>(room.lx[mesh.first_sub_patch + k]);
+      solved += area * static_cast<double>(before[mesh.first_sub_patch + k]);
+    }
+  }
+  EXPECT_NEAR(gathered, solved, 0.01 * solved);
+}
+
+TEST(Gather, FlagsOffAndAutoGiveTheSameBits) {
+  Options coarse;
+  coarse.gather_error = 5e-3;  // off tests every triangle
+  Gathered off(furnished(0.6), coarse, spot), found(furnished(0.6), coarse, spot);
+  ASSERT_TRUE(off.gather(FlagMode::kOff).done());
+  ASSERT_TRUE(found.gather(FlagMode::kAuto).done());
+  EXPECT_EQ(off.lx, found.lx);
+}
+
+TEST(Gather, BlackSurfacesReceiveAndHiddenSubPatchesKeepWhatTheyHave) {
+  Gathered room(furnished(0.6) + "material black diffuse 0\nobject plate\nquad black 3 1 1.2  3.5 1 1.2  3.5 1.5 1.2  "
+                                 "3 1.5 1.2 patches 1 1 sub 2 2\n",
+                precise(), spot);
+  const Mesh& plate = room.scene.loaded.scene.meshes.back();
+  room.hidden[plate.first_sub_patch] = 1;
+  room.lx[plate.first_sub_patch] = 7;
+  ASSERT_TRUE(room.gather().done());
+  EXPECT_EQ(room.lx[plate.first_sub_patch], 7);
+  for (std::uint32_t k = 1; k < 4; ++k) EXPECT_GT(room.lx[plate.first_sub_patch + k], 100);
+}
+
+TEST(Gather, ThePapersRulesKeepThePapersInterpolation) {
+  Options options;
+  options.gather = true;
+  EXPECT_TRUE(options.gathers());
+  options.rules.blocks = true;
+  EXPECT_TRUE(options.gathers());
+  for (int rule = 0; rule < 4; ++rule) {
+    Options with = options;
+    with.rules = {.rule1 = rule == 0, .rule2 = rule == 1, .rule2_repeated = rule == 2, .rule3 = rule == 3};
+    EXPECT_FALSE(with.gathers());
+  }
+}
+
+}  // namespace
+}  // namespace shodo
