@@ -70,9 +70,9 @@ Status light_planes(const Scene& scene, const Geometry& geometry, const Options&
         status.code = StatusCode::kInterrupted;
         return status;
       }
-      const SubPatchLight light = receiver.there()
-                                      ? plane_light(sources, mirrors, receiver.receiver(), plane_sub_patch(plane, local))
-                                      : SubPatchLight{{0, 0, 0}, 0, true};
+      SubPatchLight light;
+      light.hidden = !receiver.there();
+      if (receiver.there()) light = plane_light(sources, mirrors, receiver.receiver(), plane_sub_patch(plane, local));
       maps.hidden[index] = light.hidden ? 1 : 0;
       for (std::uint32_t c = 0; c < scene.channels && !light.hidden; ++c) {
         maps.direct_lx[std::size_t{index} * scene.channels + c] = static_cast<float>(finite(light.lux[c]));
