@@ -34,6 +34,7 @@ struct SenderEnds {
   LatticePoint lattice[kMostSamples];
   LatticeBox box;
   std::uint32_t count = 0;
+  bool panes = false;  // some may be between
 };
 
 /// A patch that sends.
@@ -58,8 +59,8 @@ class Gather {
   bool sender(std::uint32_t m, std::uint32_t local, Sender& s) const;
   void add(const Receiver& receiver, const Sender& s, Scratch& scratch);
   void place(const Sender& s, SenderEnds& ends) const;
-  double visible(const Receiver& receiver, const Sender& s, const Point& from, const LatticePoint& lattice,
-                 const SenderEnds& ends, const Aim& aim);
+  void see(const Receiver& receiver, const Sender& s, const Point& from, const LatticePoint& lattice,
+           const SenderEnds& ends, const Aim& aim, double (&visible)[3]);
   Link link_of(const Sender& s) const { return {s.mesh->object, kNone, LightSet::kAmbient}; }
 
   const SolvedPatches& solved_;
@@ -120,21 +121,26 @@ void Gather::place(const Sender& s, SenderEnds& ends) const {
   }
 }
 
-/// Of the segments to the patch, by cos cos / r^2; all alike if each end is below a horizon.
-double Gather::visible(const Receiver& receiver, const Sender& s, const Point& from, const LatticePoint& lattice,
-                       const SenderEnds& ends, const Aim& aim) {
-  double all = 0, free = 0;
-  std::uint32_t free_ends = 0;
+/// Of the segments to the patch, by cos cos / r^2, and what panes let through of each channel; all alike if each end is
+/// below a horizon.
+void Gather::see(const Receiver& receiver, const Sender& s, const Point& from, const LatticePoint& lattice,
+                 const SenderEnds& ends, const Aim& aim, double (&visible)[3]) {
+  double all = 0, free[3] = {0, 0, 0}, ends_free[3] = {0, 0, 0};
   for (std::uint32_t k = 0; k < ends.count; ++k) {
     const Vec3 way = ends.at[k] - from.at;
     const double up = dot(receiver.normal, way), towards = -dot(s.patch.normal, way), squared = length_squared(way);
     const double weight = up > 0 && towards > 0 ? up * towards / (squared * squared) : 0;
     all += weight;
-    if (intersector_.blocked(lattice, ends.lattice[k], link_of(s), aim)) continue;
-    free += weight;
-    ++free_ends;
+    if (!aim.clear() && intersector_.blocked(lattice, ends.lattice[k], link_of(s), aim)) continue;
+    for (std::uint32_t c = 0; c < scene_.channels; ++c) {
+      intersector_.set_channel(c);
+      const double part = ends.panes ? intersector_.panes().pass(lattice, ends.lattice[k]) : 1;
+      free[c] += weight * part;
+      ends_free[c] += part;
+    }
+    intersector_.set_channel(0);
   }
-  return all > 0 ? free / all : static_cast<double>(free_ends) / ends.count;
+  for (std::uint32_t c = 0; c < scene_.channels; ++c) visible[c] = all > 0 ? free[c] / all : ends_free[c] / ends.count;
 }
 
 void Gather::add(const Receiver& receiver, const Sender& s, Scratch& scratch) {
@@ -146,11 +152,14 @@ void Gather::add(const Receiver& receiver, const Sender& s, Scratch& scratch) {
     if (!(factor > 0)) continue;
     if (ends.count == 0) {
       place(s, ends);
+      ends.panes = intersector_.panes().any() && intersector_.panes().between(box_, ends.box);
       aim = intersector_.aim(box_, ends.box, link_of(s));
     }
-    const double arrives =
-        aim.clear() ? factor : factor * visible(receiver, s, point, scratch.lattice[k], ends, aim);
-    for (std::uint32_t c = 0; c < scene_.channels; ++c) scratch.lux[k * scene_.channels + c] += arrives * s.sent[c];
+    double visible[3] = {1, 1, 1};
+    if (!aim.clear() || ends.panes) see(receiver, s, point, scratch.lattice[k], ends, aim, visible);
+    for (std::uint32_t c = 0; c < scene_.channels; ++c) {
+      scratch.lux[k * scene_.channels + c] += factor * visible[c] * s.sent[c];
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 // ambient. A plane sends nothing, so it is in nobody's row: all that was solved stays as it is without planes, bit by
 // bit. F_xj is Lambert's contour integral from the point, exact for plane patches. V_xj is the visible part of 16
 // segments to a grid on the patch, each weighted by its kernel; where an aim finds nothing in the way none is sent.
+// Panes weaken each segment by what they let through, channel by channel.
 //
 // Approximate: E_j is one value a patch, so at less than a patch's size from a surface the steps between its patches
 // show; V to 1/8 of a patch along a shadow's edge; rows aren't scaled. Bytes: scratch of 44 + 8 c a sub-patch of a

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "light/receiver_group.h"
+#include "light/mirror_light.h"
 #include "light/sources.h"
 #include "light/sub_patch_light.h"
 
@@ -13,6 +13,20 @@ namespace {
 constexpr std::uint32_t kProgressInterval = 64;
 
 double finite(double x) { return x < std::numeric_limits<float>::max() ? x : std::numeric_limits<float>::max(); }
+
+/// As of a surface's sub-patch (light/direct.cpp): through coloured panes every channel by itself.
+SubPatchLight plane_light(Sources& sources, MirrorLight& mirrors, const Receiver& receiver, const Piece& piece) {
+  Intersector& intersector = sources.intersector();
+  const bool thin = is_thin(sources.geometry().lattice, piece), coloured = intersector.panes().coloured();
+  SubPatchLight light = light_sub_patch(sources, receiver, piece, thin);
+  for (std::uint32_t c = 1; c < sources.scene().channels && coloured; ++c) {
+    intersector.set_channel(c);
+    light.lux[c] = light_sub_patch(sources, receiver, piece, thin).lux[c];
+  }
+  intersector.set_channel(0);
+  if (mirrors.any() && !light.hidden) mirrors.add(receiver, piece, thin, light.lux);
+  return light;
+}
 
 constexpr std::uint64_t block(std::uint64_t bytes) { return (bytes + 7) / 8 * 8; }
 
@@ -45,6 +59,8 @@ Status light_planes(const Scene& scene, const Geometry& geometry, const Options&
   Sources sources(scene, geometry, intersector, options.tiers);
   Status status = sources.prepare(arena);
   if (!status.done()) return status;
+  MirrorLight mirrors(sources);
+  if (options.mirror_light && !mirrors.take(arena)) return arena.refused();
   sources.start_patch({});
   for (const Plane& plane : scene.planes) {
     const PlaneReceiver receiver(geometry, plane);
@@ -54,10 +70,9 @@ Status light_planes(const Scene& scene, const Geometry& geometry, const Options&
         status.code = StatusCode::kInterrupted;
         return status;
       }
-      const Piece piece = plane_sub_patch(plane, local);
-      const SubPatchLight light = receiver.there() ? light_sub_patch(sources, receiver.receiver(), piece,
-                                                                     is_thin(geometry.lattice, piece))
-                                                   : SubPatchLight{{0, 0, 0}, 0, true};
+      SubPatchLight light;
+      light.hidden = !receiver.there();
+      if (receiver.there()) light = plane_light(sources, mirrors, receiver.receiver(), plane_sub_patch(plane, local));
       maps.hidden[index] = light.hidden ? 1 : 0;
       for (std::uint32_t c = 0; c < scene.channels && !light.hidden; ++c) {
         maps.direct_lx[std::size_t{index} * scene.channels + c] = static_cast<float>(finite(light.lux[c]));

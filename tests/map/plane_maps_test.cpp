@@ -122,6 +122,26 @@ TEST(PlaneMaps, APlaneInASurfaceReceivesDirectLightAsTheSurfaceDoes) {
   }
 }
 
+// What the pane lets through twice (sun, floor, plane) or once, channel by channel.
+TEST(PlaneMaps, PanesWeakenDirectAndAmbientLightChannelByChannel) {
+  const std::string open =
+      kHead + "material glass diffuse 0 transmit 0.5 0.25 0.9\nobject floor\nquad grey 0 0 0  4 0 0  4 4 0  0 4 0\n"
+      "light sun sun towards 0 0 -1 illuminance 200\n"
+      "plane down 1 1 2  1 3 2  3 3 2  3 1 2 patches 3 2 sub 1 1\n"
+      "plane up 1 1 0.5  3 1 0.5  3 3 0.5  1 3 0.5 patches 3 2 sub 1 1\n";
+  const SolvedScene without(open), with(open + "object pane\nquad glass -9 -9 1  13 -9 1  13 13 1  -9 13 1\n");
+  const double part[3] = {0.5, 0.25, 0.9};
+  const PlaneMaps &a = without.model->planes, &b = with.model->planes;
+  for (std::uint32_t k = 0; k < 6; ++k) {
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      const double gathered = static_cast<double>(a.ambient_lx[3 * k + c]);
+      EXPECT_GT(gathered, 0);
+      EXPECT_NEAR(static_cast<double>(b.ambient_lx[3 * k + c]), part[c] * part[c] * gathered, 1e-6 * gathered);
+      EXPECT_NEAR(static_cast<double>(b.direct_lx[3 * (6 + k) + c]), 200 * part[c], 1e-4);
+    }
+  }
+}
+
 const std::string kFurnished =
     kHead + "material red diffuse 0.6 0.2 0.1\n" + room("red", "patches 5 5 sub 2 2\n") +
     "object box\nquad grey 1 1 1  2 1 1  2 2 1  1 2 1\nquad grey 1 1 0  2 1 0  2 1 1  1 1 1\n"
