@@ -30,8 +30,8 @@ TEST(OpticsStatements, OnlyMaterialsThatDoMoreHaveOptics) {
 }
 
 TEST(OpticsStatements, GreyOnesLeaveASceneGrey) {
-  const LoadedScene s("shodo 1\nbackground zenith 1 horizon 2 ground 3\nmaterial m diffuse 0.1 transmit 0.5 reflect 0.2\n" +
-                      kEnd);
+  const LoadedScene s("shodo 1\nbackground zenith 1 horizon 2 ground 3\n"
+                      "material m diffuse 0.1 transmit 0.5 reflect 0.2\n" + kEnd);
   EXPECT_EQ(s.scene.channels, 1u);
   ASSERT_EQ(s.scene.background.size(), 1u);
   EXPECT_EQ(s.scene.background[0].up, (Vec3{0, 1, 0}));
@@ -50,7 +50,8 @@ TEST(OpticsStatements, WhatSendsOutMoreThanItGetsIsRefused) {
   EXPECT_EQ(s.status.code, StatusCode::kScene);
   EXPECT_EQ(s.status.line, 2u);
   EXPECT_EQ(s.status.column, 10u);
-  EXPECT_NE(std::string(s.status.message).find("at most 0.9999 (green), found 1"), std::string::npos) << s.status.message;
+  const std::string message = s.status.message;
+  EXPECT_NE(message.find("at most 0.9999 (green), found 1"), std::string::npos) << message;
 }
 
 TEST(OpticsStatements, MistakesAreNamed) {
