@@ -2,7 +2,8 @@
 //
 // Median cuts along the widest axis of the centres; children of node k are 2 k + 1 and 2 k + 2, leaves hold up to four
 // triangles. A ray's nearest hit is sought near boxes first; a box that begins beyond the nearest hit so far is left
-// out. Boxes are tested with 2^40 / |d| rounded down and three steps to spare, so none that is met is left out.
+// out. Boxes are tested with 2^32 / |d| rounded down, and as much to spare as that can be off, so none that is met is
+// left out.
 // Exact: the answers. Bytes: 4 a drawn triangle, 24 a node (about one for each two triangles).
 #pragma once
 
@@ -38,8 +39,8 @@ class RayTree {
   struct Range {
     std::uint32_t first, end;
   };
-  struct Slabs {  // 2^40 / |d| an axis
-    std::int64_t inverse[3];
+  struct Slabs {  // 2^32 / |d| an axis
+    std::uint32_t inverse[3];
     std::int32_t origin[3];
     bool up[3], still[3];
   };
@@ -59,7 +60,7 @@ void RayTree::visit_blockers(const Ray& ray, bool ends, Visit visit) const {
   std::uint32_t stack[33];
   std::uint32_t depth = 0;
   const Slabs slabs = slabs_of(ray);
-  const std::int64_t limit = ends ? (std::int64_t{1} << 40) + (3 << 20) : INT64_MAX;
+  const std::int64_t limit = ends ? (std::int64_t{1} << 32) + 1 : INT64_MAX;
   if (!nodes_.empty()) stack[depth++] = 0;
   while (depth > 0) {
     const std::uint32_t node = stack[--depth];
