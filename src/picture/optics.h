@@ -85,6 +85,8 @@ class PictureOptics {
   std::span<std::uint32_t> light_;      // [light * channels + channel]: fine steps
   std::span<Path> waiting_;
   std::uint32_t waiting_count_ = 0;
+  static constexpr std::uint32_t kHints = 8;
+  std::uint32_t hint_[kHints] = {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};  // hits of the sample before
   bool roll_ = false;
   std::uint64_t black_ = 0;             // fine steps of the display's MIN
   std::uint32_t horizon_[3] = {}, zenith_[3] = {}, ground_[3] = {};  // fine steps

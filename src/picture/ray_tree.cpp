@@ -125,7 +125,17 @@ bool RayTree::invisible(const DrawnTriangle& triangle, bool front) const {
   return !front || !scene_->background.empty();
 }
 
-RayHit RayTree::nearest_after(const Ray& ray, const RayHit& last) const {
+/// Takes the triangle's hit if it is the best so far.
+void RayTree::offer(const Ray& ray, const RayHit& last, std::uint32_t t, RayHit& best, std::int64_t& limit) const {
+  RayHit hit;
+  if (t == last.triangle || !meet(drawn_[t], t, ray, hit) || invisible(drawn_[t], hit.front)) return;
+  if (last.any() && !comes_before(drawn_, last, hit)) return;
+  if (best.any() && !comes_before(drawn_, hit, best)) return;
+  best = hit;
+  limit = limit_of(best);
+}
+
+RayHit RayTree::nearest_after(const Ray& ray, const RayHit& last, std::uint32_t hint) const {
   struct Waiting {
     std::int64_t enters;
     std::uint32_t node;
@@ -136,6 +146,7 @@ RayHit RayTree::nearest_after(const Ray& ray, const RayHit& last) const {
   RayHit best;
   std::int64_t limit = INT64_MAX;
   Waiting root{0, 0};
+  if (hint != kNone) offer(ray, last, hint, best, limit);
   if (!nodes_.empty() && meets(nodes_[0], slabs, limit, root.enters)) stack[depth++] = root;
   while (depth > 0) {
     const Waiting at = stack[--depth];
@@ -158,13 +169,7 @@ RayHit RayTree::nearest_after(const Ray& ray, const RayHit& last) const {
     }
     const Range range = range_of(at.node);
     for (std::uint32_t k = range.first; k < range.end; ++k) {
-      RayHit hit;
-      const std::uint32_t t = order_[k];
-      if (t == last.triangle || !meet(drawn_[t], t, ray, hit) || invisible(drawn_[t], hit.front)) continue;
-      if (last.any() && !comes_before(drawn_, last, hit)) continue;
-      if (best.any() && !comes_before(drawn_, hit, best)) continue;
-      best = hit;
-      limit = limit_of(best);
+      if (order_[k] != hint) offer(ray, last, order_[k], best, limit);
     }
   }
   return best;

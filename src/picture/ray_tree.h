@@ -22,9 +22,10 @@ class RayTree {
   [[nodiscard]] bool build(const Scene& scene, std::span<const DrawnTriangle> drawn, Arena& arena);
   static std::uint64_t bytes(std::uint64_t drawn);
 
-  /// The first hit of the ray, or the first after another one of its hits.
-  RayHit nearest(const Ray& ray) const { return nearest_after(ray, {}); }
-  RayHit nearest_after(const Ray& ray, const RayHit& last) const;
+  /// The first hit of the ray, or the first after another one of its hits. `hint`: a triangle that may well be it, or
+  /// kNone; it changes no answer.
+  RayHit nearest(const Ray& ray, std::uint32_t hint) const { return nearest_after(ray, {}, hint); }
+  RayHit nearest_after(const Ray& ray, const RayHit& last, std::uint32_t hint) const;
 
   /// visit(hit) for what stands between p and q, or in the way of the ray without `ends`, in an order that the tree
   /// fixes, until it returns false.
@@ -46,6 +47,7 @@ class RayTree {
   };
   static Slabs slabs_of(const Ray& ray);
   static bool meets(const LatticeBox& box, const Slabs& slabs, std::int64_t limit, std::int64_t& enters);
+  void offer(const Ray& ray, const RayHit& last, std::uint32_t triangle, RayHit& best, std::int64_t& limit) const;
   Range range_of(std::uint32_t node) const;
   void split(const Range& range);
 
