@@ -134,6 +134,7 @@ Options small(std::uint32_t width = 160, std::uint32_t height = 120, std::uint32
 void expect_as_twin(const std::string& text, const Options& options = small()) {
   OpticsScene scene(text, options);
   const Outcome outcome = scene.compare();
+  testing::Test::RecordProperty("pixels_off", static_cast<int>(outcome.off));  // of the last scene
   EXPECT_LE(outcome.off * 1000, outcome.pixels) << outcome.off << " of " << outcome.pixels;
   EXPECT_EQ(outcome.unexplained, 0u);
 }
