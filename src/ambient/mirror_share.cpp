@@ -138,7 +138,8 @@ void MirrorShare::gather_over(const PatchPoints& i, const PatchPoints& j, std::u
         continue;
       }
       const double squared = length_squared(way);
-      const double part = i.weight[k] * j.weight[l] * j.patch.area * kInversePi * cosines * leaves / (squared * squared);
+      const double kernel = kInversePi * cosines * leaves / (squared * squared);
+      const double part = i.weight[k] * j.weight[l] * j.patch.area * kernel;
       for (std::uint32_t c = 0; c < scene_.channels; ++c) {
         intersector_.set_channel(c);
         const Panes& panes = intersector_.panes();

@@ -6,8 +6,8 @@
 //     M_i += reflect F(i, image of j) rho_j E_j,     summed over all patches j,
 //
 // F by the kernel between 4 points of i and the images of 4 points of j, each of the 16 counted if the way passes the
-// triangle and neither leg is blocked; panes weaken both legs. That is a row of form factors times the light, without the
-// matrix: the system E = E0 + (F + M) rho E is solved with F as always and M E added to E0, twice; what a third time
+// triangle and neither leg is blocked; panes weaken both legs. That is a row of form factors times the light, without
+// the matrix: the system E = E0 + (F + M) rho E is solved with F as always and M E added to E0, twice; what a third time
 // would add is the square of the mirrors' share.
 // Exact: what the ways meet. Approximate: 16 points for an integral, as in the middle tier of form factors, also where a
 // patch and an image are near each other.

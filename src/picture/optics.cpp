@@ -1,5 +1,7 @@
 #include "picture/optics.h"
 
+#include <bit>
+
 namespace shodo {
 
 namespace {
@@ -115,7 +117,8 @@ void PictureOptics::add(std::uint32_t triangle, std::int32_t x0, std::int32_t x1
     // At grazing angles the rounded ray may miss what the sample sees; it meets something else then.
     if (triangle != kNone && (tree_.invisible(geometry_->drawn[triangle], true) ||
                               !meet_plane(geometry_->drawn[triangle], triangle, path.ray, first))) {
-      first = tree_.nearest(path.ray);
+      first = tree_.nearest(path.ray, hint_[0]);
+      hint_[0] = first.triangle;
     }
     follow(path, first, sum);
     std::uint32_t* const to = &sums[(static_cast<std::uint32_t>(x) >> grid_.shift) * channels];
@@ -139,12 +142,20 @@ void PictureOptics::follow(const Path& start, const RayHit& first, Colour& sum) 
   Path path = start;
   RayHit hit = first;
   waiting_count_ = 0;
+  std::uint32_t depth = 1;
   for (;;) {
-    while (hit.any() && pass(hit, path, sum)) hit = tree_.nearest_after(path.ray, hit);
+    for (; hit.any() && pass(hit, path, sum); ++depth) {
+      std::uint32_t& hint = hint_[depth < kHints ? depth : kHints - 1];
+      hit = tree_.nearest_after(path.ray, hit, hint);
+      hint = hit.triangle;
+    }
     if (!hit.any()) add_background(path, sum);
     if (waiting_count_ == 0) return;
     path = waiting_[--waiting_count_];
-    hit = tree_.nearest(path.ray);
+    std::uint32_t& hint = hint_[depth < kHints ? depth : kHints - 1];
+    hit = tree_.nearest(path.ray, hint);
+    hint = hit.triangle;
+    ++depth;
   }
 }
 
@@ -203,10 +214,14 @@ void PictureOptics::add_background(const Path& path, Colour& sum) const {
   const LatticeVector& way = path.ray.direction;
   const LatticeVector d{way.x >> 5, way.y >> 5, way.z >> 5};
   const std::int64_t rise = dot(d, up_);  // at most 2^31.6
-  // The square of the sine, in 65536ths.
-  const std::uint64_t whole = static_cast<std::uint64_t>(dot(d, d)) * static_cast<std::uint64_t>(dot(up_, up_)) >> 16;
+  // The square of the sine, in 65536ths: 32 bits over 16.
+  const std::uint64_t whole = static_cast<std::uint64_t>(dot(d, d)) * static_cast<std::uint64_t>(dot(up_, up_));
   const std::uint64_t size = static_cast<std::uint64_t>(rise < 0 ? -rise : rise);
-  const std::uint64_t squared = whole == 0 ? 0 : size * size / whole;
+  const int right = 48 - std::countl_zero(whole | 1) > 0 ? 48 - std::countl_zero(whole | 1) : 0;
+  const std::uint32_t below = static_cast<std::uint32_t>(whole >> right);
+  const std::uint64_t above = size * size >> right << 16;
+  const std::uint32_t squared =
+      below == 0 ? 0 : above >= std::uint64_t{below} << 16 ? kWhole : static_cast<std::uint32_t>(above) / below;
   const std::uint64_t high = squared < kWhole ? squared : kWhole;
   for (std::uint32_t c = 0; c < scene_->channels; ++c) {
     const std::uint64_t sky = (horizon_[c] * (kWhole - high) + zenith_[c] * high) >> 16;

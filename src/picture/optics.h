@@ -7,7 +7,7 @@
 //
 //     L = map + highlight + reflect L(mirrored) + transmit L(behind);  of a pane seen from behind transmit L(behind)
 //
-// Exact: what a ray meets, and in which order. Approximate: its direction, rounded to 2^-21 (1/1000 pixel), the point
+// Exact: what a ray meets, and in which order. Approximate: its direction, rounded to 2^-20 (1/1000 pixel), the point
 // where a mirror sends it on (two lattice steps), parts to 1/65536. Luminances are sums of integers: display steps with
 // 8 more bits. A ray whose part is below 1/65536 ends, and so does one after kMostReflections: black.
 // Only for scenes with such materials or a background. Bytes: ray_tree.h's, highlight.h's, 24 an optics, 4 a light and
@@ -85,6 +85,8 @@ class PictureOptics {
   std::span<std::uint32_t> light_;      // [light * channels + channel]: fine steps
   std::span<Path> waiting_;
   std::uint32_t waiting_count_ = 0;
+  static constexpr std::uint32_t kHints = 8;
+  std::uint32_t hint_[kHints] = {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};  // hits of the sample before
   bool roll_ = false;
   std::uint64_t black_ = 0;             // fine steps of the display's MIN
   std::uint32_t horizon_[3] = {}, zenith_[3] = {}, ground_[3] = {};  // fine steps

@@ -16,12 +16,6 @@ std::int64_t largest_component(const LatticeVector& a) {
   return xy > z ? xy : z;
 }
 
-/// a / b to the nearest, halves away from zero; b above 0.
-std::int64_t rounded_quotient(std::int64_t a, std::int64_t b) {
-  const std::int64_t size = (magnitude(a) + b / 2) / b;
-  return a < 0 ? -size : size;
-}
-
 /// By how many bits a positive number has to go right to have at most `bits`.
 int shift_to(std::int64_t a, int bits) {
   const int width = 64 - std::countl_zero(static_cast<std::uint64_t>(a));
@@ -30,42 +24,65 @@ int shift_to(std::int64_t a, int bits) {
 
 LatticeVector normal_of(const DrawnTriangle& t) { return cross(t.vertex[1] - t.vertex[0], t.vertex[2] - t.vertex[0]); }
 
-std::int32_t odd_near(std::int64_t whole, std::int64_t part, std::int64_t of) {
-  // whole + part / of to the odd number that is nearest: 2 floor(x / 2) + 1.
-  const std::int64_t twice = 2 * of;
-  const std::int64_t even = whole >= 0 ? whole / 2 : -((1 - whole) / 2);
-  const std::int64_t rest = (whole - 2 * even) * of + part;
-  const std::int64_t steps = rest >= 0 ? rest / twice : -((twice - 1 - rest) / twice);
-  return static_cast<std::int32_t>(2 * (even + steps) + 1);
+/// a / 2^right to the nearest, halves away from zero.
+std::int64_t shifted(std::int64_t a, int right) {
+  if (right == 0) return a;
+  const std::int64_t size = (magnitude(a) + (std::int64_t{1} << (right - 1))) >> right;
+  return a < 0 ? -size : size;
+}
+
+/// The nearest odd number to origin + d part / 2^kPartBits.
+constexpr int kPartBits = 23;
+std::int32_t odd_near(std::int32_t origin, std::int64_t d, std::int64_t part) {
+  const std::int64_t at = (std::int64_t{origin} << kPartBits) + d * part;
+  return static_cast<std::int32_t>(2 * (at >> (kPartBits + 1)) + 1);
+}
+
+/// A corner as the ray's origin sees it.
+struct Corner {
+  std::int32_t x, y, z;
+};
+Corner corner_from(const LatticePoint& p, const LatticePoint& origin) {
+  return {p.x - origin.x, p.y - origin.y, p.z - origin.z};
+}
+LatticeVector vector_of(const Corner& c) { return {c.x, c.y, c.z}; }
+
+/// d x b, of products of 32 bits.
+LatticeVector moment(const LatticeVector& d, const Corner& b) {
+  const std::int32_t x = static_cast<std::int32_t>(d.x), y = static_cast<std::int32_t>(d.y),
+                     z = static_cast<std::int32_t>(d.z);
+  return {product(y, b.z) - product(z, b.y), product(z, b.x) - product(x, b.z), product(x, b.y) - product(y, b.x)};
+}
+std::int64_t dot(const LatticeVector& m, const Corner& a) { return m.x * a.x + m.y * a.y + m.z * a.z; }
+
+/// The sign of d.(a x b), given its value (visibility/half_open.h).
+int sign_of(std::int64_t value, const LatticeVector& d, const Corner& a, const Corner& b) {
+  if (value != 0) return value > 0 ? 1 : -1;
+  return edge_side(d, vector_of(a), vector_of(b)).sign;
 }
 
 }  // namespace
 
 LatticeVector ray_direction(const LatticeVector& any) {
-  const std::int64_t largest = largest_component(any);
-  if (largest == 0) return {};
-  const int right = shift_to(largest, 42);
-  const LatticeVector a{any.x >> right, any.y >> right, any.z >> right};
-  const std::int64_t whole = largest >> right;
-  LatticeVector d{rounded_quotient(a.x * kRayLength, whole), rounded_quotient(a.y * kRayLength, whole),
-                  rounded_quotient(a.z * kRayLength, whole)};
-  for (std::int64_t* const c : {&d.x, &d.y, &d.z}) {  // a negative component may be one above after the shift
-    if (*c < -kRayLength) *c = -kRayLength;
-  }
+  const int right = shift_to(largest_component(any), 20);
+  const LatticeVector d{shifted(any.x, right), shifted(any.y, right), shifted(any.z, right)};
   return d;
 }
 
 bool meet(const DrawnTriangle& triangle, std::uint32_t index, const Ray& ray, RayHit& hit) {
-  const LatticeVector &d = ray.direction, a = triangle.vertex[0] - ray.origin, b = triangle.vertex[1] - ray.origin,
-                      c = triangle.vertex[2] - ray.origin;
-  const EdgeSide ab = edge_side(d, a, b), bc = edge_side(d, b, c);
-  if (ab.sign != bc.sign || ab.sign == 0) return false;
-  const EdgeSide ca = edge_side(d, c, a);
-  if (ca.sign != ab.sign) return false;
-  const std::int64_t through = ab.value + bc.value + ca.value;
-  const std::int64_t side = -dot(a, cross(b, c));  // s(origin)
+  const LatticeVector& d = ray.direction;
+  const Corner a = corner_from(triangle.vertex[0], ray.origin), b = corner_from(triangle.vertex[1], ray.origin),
+               c = corner_from(triangle.vertex[2], ray.origin);
+  const LatticeVector m = moment(d, b);
+  const std::int64_t ab = -dot(m, a), bc = dot(m, c);
+  const int sign = sign_of(ab, d, a, b);
+  if (sign == 0 || sign != sign_of(bc, d, b, c)) return false;
+  const std::int64_t ca = dot(moment(d, c), a);
+  if (sign != sign_of(ca, d, c, a)) return false;
+  const std::int64_t through = ab + bc + ca;
+  const std::int64_t side = -dot(cross(vector_of(b), vector_of(c)), a);  // s(origin)
   if (through > 0 ? side >= 0 : through == 0 || side <= 0) return false;
-  hit = {index, side > 0, magnitude(side), magnitude(through), magnitude(ca.value), magnitude(ab.value)};
+  hit = {index, side > 0, magnitude(side), magnitude(through), magnitude(ca), magnitude(ab)};
   return true;
 }
 
@@ -87,16 +104,20 @@ bool comes_before(std::span<const DrawnTriangle> drawn, const RayHit& a, const R
 }
 
 MapPlace map_place(const DrawnTriangle& t, const RayHit& hit) {
-  const int right = shift_to(hit.speed, 38);
-  const std::int64_t whole = hit.speed >> right;
-  const auto part = [&](std::int64_t weight) {  // 2^24: 1; a ray beside the triangle counts as on its border
+  const int right = shift_to(hit.speed, 16);
+  const std::uint32_t whole = static_cast<std::uint32_t>(hit.speed >> right);
+  const auto part = [&](std::int64_t weight) {  // 2^16: 1; a ray beside the triangle counts as on its border
     if (weight <= 0) return std::int64_t{0};
-    return weight >= hit.speed ? std::int64_t{1} << 24 : ((weight >> right) << 24) / whole;
+    if (weight >= hit.speed) return std::int64_t{1} << 16;
+    const int more = right < 15 ? right : 15;  // as many bits as 32 hold
+    const std::uint32_t scaled = static_cast<std::uint32_t>(weight >> (right - more)) << (15 - more);
+    const std::uint32_t quotient = scaled / whole;  // of 2^15
+    return std::int64_t{2} * quotient + 1;
   };
   const std::int64_t b = part(hit.b), c = part(hit.c);
   const auto coordinate = [&](const std::int32_t (&at)[3]) {
     const std::int64_t along = (std::int64_t{at[1]} - at[0]) * b + (std::int64_t{at[2]} - at[0]) * c;
-    return static_cast<std::int32_t>((std::int64_t{at[0]} << 4) + (along >> 20));
+    return static_cast<std::int32_t>((std::int64_t{at[0]} << 4) + (along >> 12));
   };
   return {coordinate(t.u), coordinate(t.v)};
 }
@@ -105,8 +126,9 @@ LatticePoint point_before(const DrawnTriangle& t, const Ray& ray, const RayHit& 
   const int right = shift_to(hit.speed > hit.distance ? hit.speed : hit.distance, 40);
   const std::int64_t far = hit.distance >> right, fast = hit.speed >> right > 0 ? hit.speed >> right : 1;
   const LatticeVector& d = ray.direction;
-  LatticePoint p{odd_near(ray.origin.x, d.x * far, fast), odd_near(ray.origin.y, d.y * far, fast),
-                 odd_near(ray.origin.z, d.z * far, fast)};
+  const std::int64_t part = (far << kPartBits) / fast;
+  LatticePoint p{odd_near(ray.origin.x, d.x, part), odd_near(ray.origin.y, d.y, part),
+                 odd_near(ray.origin.z, d.z, part)};
   LatticeVector n = normal_of(t);
   if (!hit.front) n = {-n.x, -n.y, -n.z};
   const std::int64_t side = dot(n, p - t.vertex[0]);

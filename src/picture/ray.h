@@ -7,7 +7,7 @@
 // A ray through an edge or a corner meets a triangulated pane once, not twice or never: visibility/half_open.h.
 //
 // Exact: which triangles are met, and their order along the ray; ties as in the picture (wins_tie). Approximate: the
-// map coordinates of a hit, to 1/1000 sub-patch, and the point of a hit, to two lattice steps.
+// map coordinates of a hit, to 2^-15 of the triangle, and the point of a hit, to two lattice steps.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct Ray {
   LatticeVector direction;  // the largest component is +-kRayLength, or less
 };
 
-/// The direction with its largest component scaled to 2^20, rounded half away from zero; components below 2^62.
+/// The direction, halved until its largest component has 20 bits, rounded half away from zero; below 2^63.
 LatticeVector ray_direction(const LatticeVector& any);
 
 /// Where a ray meets a triangle: at the fraction distance / speed of the direction.
@@ -58,7 +58,7 @@ MapPlace map_place(const DrawnTriangle& triangle, const RayHit& hit);
 LatticePoint point_before(const DrawnTriangle& triangle, const Ray& ray, const RayHit& hit);
 
 /// The way on after a mirror: d - 2 (d.n) n / n.n, with n the triangle's normal as a ray_direction(). Off by at most
-/// 2^-19 rad: what is 5 m away is 1/100 mm off.
+/// 2^-18 rad: what is 5 m away is 1/50 mm off.
 LatticeVector mirrored(const DrawnTriangle& triangle, const LatticeVector& direction);
 
 }  // namespace shodo

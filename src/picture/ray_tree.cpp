@@ -9,8 +9,8 @@ namespace shodo {
 namespace {
 
 constexpr std::uint64_t kLeaf = 4;
-constexpr std::int64_t kOne = std::int64_t{1} << 40;   // of Slabs: the whole direction
-constexpr std::int64_t kSlack = std::int64_t{3} << 20;  // rounding of inverses, times 2^21 steps at most, and one more
+// Of Slabs, where 2^32 is the whole direction: inverses are off by at most 1, times 2^21 steps.
+constexpr std::int64_t kSlack = std::int64_t{1} << 22;
 
 std::uint64_t count_nodes(std::uint64_t triangles) {
   if (triangles == 0) return 0;
@@ -25,13 +25,14 @@ LatticeBox box_of(const DrawnTriangle& triangle) {
   return box;
 }
 
-/// distance / speed in units of Slabs, at least what it is.
+/// distance / speed in units of Slabs, at least what it is, and by not more than 1/256 of it or so.
 std::int64_t limit_of(const RayHit& hit) {
-  if (hit.distance >= hit.speed && hit.distance / hit.speed >= (1 << 20)) return INT64_MAX;
   const int width = 64 - std::countl_zero(static_cast<std::uint64_t>(hit.speed));
-  const int right = width > 22 ? width - 22 : 0;  // 20 more than the distance may have, and 40 to come
-  const std::int64_t far = (hit.distance >> right) + 1, fast = hit.speed >> right;
-  return far >= (std::int64_t{1} << 23) ? INT64_MAX : (far << 40) / fast + kSlack;
+  const int right = width > 22 ? width - 22 : 0;
+  const std::int64_t far = (hit.distance >> right) + 1;
+  if (far >= (std::int64_t{1} << 23)) return INT64_MAX;
+  const std::uint32_t fast = static_cast<std::uint32_t>(hit.speed >> right);
+  return std::int64_t{(static_cast<std::uint32_t>(far) << 9) / fast + 1} << 23;
 }
 
 }  // namespace
@@ -93,7 +94,8 @@ RayTree::Slabs RayTree::slabs_of(const Ray& ray) {
   for (int k = 0; k < 3; ++k) {
     slabs.up[k] = way[k] > 0;
     slabs.still[k] = way[k] == 0;
-    slabs.inverse[k] = way[k] == 0 ? 0 : kOne / (way[k] < 0 ? -way[k] : way[k]);
+    const std::uint32_t size = static_cast<std::uint32_t>(way[k] < 0 ? -way[k] : way[k]);
+    slabs.inverse[k] = size == 0 ? 0 : 0xffffffffu / size;
   }
   return slabs;
 }
@@ -107,8 +109,9 @@ bool RayTree::meets(const LatticeBox& box, const Slabs& slabs, std::int64_t limi
       if (low > 0 || high < 0) return false;
       continue;
     }
-    const std::int64_t in = (slabs.up[k] ? low : -high) * slabs.inverse[k] - kSlack;
-    const std::int64_t out = (slabs.up[k] ? high : -low) * slabs.inverse[k] + kSlack;
+    const std::int64_t inverse = slabs.inverse[k];
+    const std::int64_t in = (slabs.up[k] ? low : -high) * inverse - kSlack;
+    const std::int64_t out = (slabs.up[k] ? high : -low) * inverse + kSlack;
     if (in > first) first = in;
     if (out < last) last = out;
     if (first > last) return false;
@@ -122,7 +125,17 @@ bool RayTree::invisible(const DrawnTriangle& triangle, bool front) const {
   return !front || !scene_->background.empty();
 }
 
-RayHit RayTree::nearest_after(const Ray& ray, const RayHit& last) const {
+/// Takes the triangle's hit if it is the best so far.
+void RayTree::offer(const Ray& ray, const RayHit& last, std::uint32_t t, RayHit& best, std::int64_t& limit) const {
+  RayHit hit;
+  if (t == last.triangle || !meet(drawn_[t], t, ray, hit) || invisible(drawn_[t], hit.front)) return;
+  if (last.any() && !comes_before(drawn_, last, hit)) return;
+  if (best.any() && !comes_before(drawn_, hit, best)) return;
+  best = hit;
+  limit = limit_of(best);
+}
+
+RayHit RayTree::nearest_after(const Ray& ray, const RayHit& last, std::uint32_t hint) const {
   struct Waiting {
     std::int64_t enters;
     std::uint32_t node;
@@ -133,6 +146,7 @@ RayHit RayTree::nearest_after(const Ray& ray, const RayHit& last) const {
   RayHit best;
   std::int64_t limit = INT64_MAX;
   Waiting root{0, 0};
+  if (hint != kNone) offer(ray, last, hint, best, limit);
   if (!nodes_.empty() && meets(nodes_[0], slabs, limit, root.enters)) stack[depth++] = root;
   while (depth > 0) {
     const Waiting at = stack[--depth];
@@ -155,13 +169,7 @@ RayHit RayTree::nearest_after(const Ray& ray, const RayHit& last) const {
     }
     const Range range = range_of(at.node);
     for (std::uint32_t k = range.first; k < range.end; ++k) {
-      RayHit hit;
-      const std::uint32_t t = order_[k];
-      if (t == last.triangle || !meet(drawn_[t], t, ray, hit) || invisible(drawn_[t], hit.front)) continue;
-      if (last.any() && !comes_before(drawn_, last, hit)) continue;
-      if (best.any() && !comes_before(drawn_, hit, best)) continue;
-      best = hit;
-      limit = limit_of(best);
+      if (order_[k] != hint) offer(ray, last, order_[k], best, limit);
     }
   }
   return best;

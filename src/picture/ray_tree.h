@@ -2,7 +2,8 @@
 //
 // Median cuts along the widest axis of the centres; children of node k are 2 k + 1 and 2 k + 2, leaves hold up to four
 // triangles. A ray's nearest hit is sought near boxes first; a box that begins beyond the nearest hit so far is left
-// out. Boxes are tested with 2^40 / |d| rounded down and three steps to spare, so none that is met is left out.
+// out. Boxes are tested with 2^32 / |d| rounded down, and as much to spare as that can be off, so none that is met is
+// left out.
 // Exact: the answers. Bytes: 4 a drawn triangle, 24 a node (about one for each two triangles).
 #pragma once
 
@@ -21,9 +22,10 @@ class RayTree {
   [[nodiscard]] bool build(const Scene& scene, std::span<const DrawnTriangle> drawn, Arena& arena);
   static std::uint64_t bytes(std::uint64_t drawn);
 
-  /// The first hit of the ray, or the first after another one of its hits.
-  RayHit nearest(const Ray& ray) const { return nearest_after(ray, {}); }
-  RayHit nearest_after(const Ray& ray, const RayHit& last) const;
+  /// The first hit of the ray, or the first after another one of its hits. `hint`: a triangle that may well be it, or
+  /// kNone; it changes no answer.
+  RayHit nearest(const Ray& ray, std::uint32_t hint) const { return nearest_after(ray, {}, hint); }
+  RayHit nearest_after(const Ray& ray, const RayHit& last, std::uint32_t hint) const;
 
   /// visit(hit) for what stands between p and q, or in the way of the ray without `ends`, in an order that the tree
   /// fixes, until it returns false.
@@ -38,13 +40,14 @@ class RayTree {
   struct Range {
     std::uint32_t first, end;
   };
-  struct Slabs {  // 2^40 / |d| an axis
-    std::int64_t inverse[3];
+  struct Slabs {  // 2^32 / |d| an axis
+    std::uint32_t inverse[3];
     std::int32_t origin[3];
     bool up[3], still[3];
   };
   static Slabs slabs_of(const Ray& ray);
   static bool meets(const LatticeBox& box, const Slabs& slabs, std::int64_t limit, std::int64_t& enters);
+  void offer(const Ray& ray, const RayHit& last, std::uint32_t triangle, RayHit& best, std::int64_t& limit) const;
   Range range_of(std::uint32_t node) const;
   void split(const Range& range);
 
@@ -59,7 +62,7 @@ void RayTree::visit_blockers(const Ray& ray, bool ends, Visit visit) const {
   std::uint32_t stack[33];
   std::uint32_t depth = 0;
   const Slabs slabs = slabs_of(ray);
-  const std::int64_t limit = ends ? (std::int64_t{1} << 40) + (3 << 20) : INT64_MAX;
+  const std::int64_t limit = ends ? (std::int64_t{1} << 32) + 1 : INT64_MAX;
   if (!nodes_.empty()) stack[depth++] = 0;
   while (depth > 0) {
     const std::uint32_t node = stack[--depth];

@@ -68,7 +68,8 @@ double Panes::pass(const LatticePoint& p, const LatticePoint& q) const {
 }
 
 double Panes::pass_along(const LatticePoint& p, const LatticeVector& d) const {
-  return product(box_between(p, end_of(p, d)), [&](const Triangle& triangle) { return passes(triangle, p, d); });
+  const LatticeBox around = box_between(p, end_of(p, d));
+  return product(around, [&](const Triangle& triangle) { return passes(triangle, p, d); });
 }
 
 }  // namespace shodo

@@ -126,7 +126,8 @@ TEST(MirrorLight, DiffuseSurfacesSendEachOtherLightOverMirrors) {
   const std::string sun = "light s sun towards 0 -1 0 illuminance 1000\n";
   const std::string image = "material darker diffuse 0.4 0.3 0.2\nobject image\n"
                             "quad darker -2 0 0  -2 0 2  0 0 2  0 0 0  patches 4 4 sub 2 2\n";
-  const Lit off(kFloor + wall + kMirror + sun, false), on(kFloor + wall + kMirror + sun), both(kFloor + image + wall + sun);
+  const Lit off(kFloor + wall + kMirror + sun, false), on(kFloor + wall + kMirror + sun);
+  const Lit both(kFloor + image + wall + sun);
   for (std::size_t k = 0; k < 16; ++k) {
     for (std::uint32_t c = 0; c < 3; ++c) {
       const double mirrored = on.ambient(64 + k, c) - off.ambient(64 + k, c);

@@ -97,7 +97,7 @@ class OpticsScene {
 
  private:
   static bool agrees(const std::uint8_t* found, const std::array<int, 3>& level) {
-    for (int c = 0; c < 3; ++c) {
+    for (std::size_t c = 0; c < 3; ++c) {
       if (std::abs(found[c] - level[c]) > 1) return false;
     }
     return true;
@@ -107,10 +107,10 @@ class OpticsScene {
     for (const double dx : {-0.01, 0.0, 0.01}) {
       for (const double dy : {-0.01, 0.0, 0.01}) {
         const std::array<int, 3> level = twin.level(x, y, dx, dy);
-        for (int c = 0; c < 3; ++c) low[c] = std::min(low[c], level[c]), high[c] = std::max(high[c], level[c]);
+        for (std::size_t c = 0; c < 3; ++c) low[c] = std::min(low[c], level[c]), high[c] = std::max(high[c], level[c]);
       }
     }
-    for (int c = 0; c < 3; ++c) {
+    for (std::size_t c = 0; c < 3; ++c) {
       if (found[c] < low[c] - 1 || found[c] > high[c] + 1) return false;
     }
     return true;
@@ -134,6 +134,7 @@ Options small(std::uint32_t width = 160, std::uint32_t height = 120, std::uint32
 void expect_as_twin(const std::string& text, const Options& options = small()) {
   OpticsScene scene(text, options);
   const Outcome outcome = scene.compare();
+  testing::Test::RecordProperty("pixels_off", static_cast<int>(outcome.off));  // of the last scene
   EXPECT_LE(outcome.off * 1000, outcome.pixels) << outcome.off << " of " << outcome.pixels;
   EXPECT_EQ(outcome.unexplained, 0u);
 }
@@ -203,7 +204,8 @@ TEST(PictureOptics, HighlightsOfAllKindsOfLights) {
   expect_as_twin(kRoom + block + "light s sun towards 0.2 -0.5 0.8 illuminance 2000\n");
   expect_as_twin(kRoom + kBackWall + block + "light a area quad 1 2.5 0.6  2.2 2.5 0.6  2.2 2.5 1.2  1 2.5 1.2 "
                  "luminance 3000\n", small(64, 48));
-  expect_as_twin(kRoom + kBackWall + block + "object lamp\nquad grey 1.6 2.2 0.8  1.9 2.2 0.8  1.9 2.2 1.1  1.6 2.2 1.1\n"
+  expect_as_twin(kRoom + kBackWall + block +
+                 "object lamp\nquad grey 1.6 2.2 0.8  1.9 2.2 0.8  1.9 2.2 1.1  1.6 2.2 1.1\n"
                  "quad grey 1.6 2.2 1.1  1.6 2.5 1.1  1.9 2.5 1.1  1.9 2.2 1.1\n"
                  "quad grey 1.6 2.2 0.8  1.6 2.5 0.8  1.9 2.5 0.8  1.9 2.2 0.8\n"
                  "light l polyhedron object lamp luminance 2500\n", small(64, 48));

@@ -71,7 +71,7 @@ Colour OpticsTwin::background(const Point& way) const {
   const Background& seen = scene_.background[0];
   const double sine = dot(unit(way), of(seen.up));
   Colour colour;
-  for (int c = 0; c < 3; ++c) {
+  for (std::size_t c = 0; c < 3; ++c) {
     colour[c] = sine < 0 ? seen.ground.c[c] : seen.horizon.c[c] + sine * sine * (seen.zenith.c[c] - seen.horizon.c[c]);
   }
   return colour;
@@ -83,7 +83,7 @@ Colour OpticsTwin::surface(const Hit& hit) const {
   Colour colour{0, 0, 0};
   if (drawn.mesh == kNone) {
     const Light& light = scene_.lights[drawn.light];
-    for (int c = 0; c < 3; ++c) colour[c] = light.strength * light.colour.c[c];
+    for (std::size_t c = 0; c < 3; ++c) colour[c] = light.strength * light.colour.c[c];
     return colour;
   }
   const Mesh& mesh = scene_.meshes[drawn.mesh];
@@ -117,7 +117,7 @@ Colour OpticsTwin::passes(const Point& from, const Point& way, double end) const
     const DrawnTriangle& drawn = geometry_.drawn[hit.triangle->index];
     if (drawn.mesh == kNone && scene_.lights[drawn.light].open) continue;
     const Optics* const optics = optics_of(*hit.triangle);
-    for (int c = 0; c < 3; ++c) colour[c] *= optics == nullptr ? 0 : optics->transmit.c[c];
+    for (std::size_t c = 0; c < 3; ++c) colour[c] *= optics == nullptr ? 0 : optics->transmit.c[c];
   }
   return colour;
 }
@@ -133,7 +133,7 @@ Colour OpticsTwin::highlight(const Optics& optics, const Point& at, const Point&
     const double lobe = std::pow(std::max(0.0, dot(l, r)), n), cosine = dot(l, normal);
     if (lobe < 1e-7 || cosine <= 0) return;
     const Colour left = passes(from, to, end);
-    for (int c = 0; c < 3; ++c) sum[c] += strength * lobe * cosine * lx_before_cosine * light.colour.c[c] * left[c];
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += strength * lobe * cosine * lx_before_cosine * light.colour.c[c] * left[c];
   };
   const auto add_quad = [&](const Light& light, const std::array<Point, 4>& corner, int points) {
     const Point across = cross(sub(corner[1], corner[0]), sub(corner[2], corner[0]));
@@ -183,15 +183,15 @@ Colour OpticsTwin::trace(const Point& from, const Point& way, int depth) const {
       const Point at = along(from, hit.t, way), &n = hit.triangle->normal;
       if (optics->highlight > 0) {
         const Colour shine = highlight(*optics, at, n, unit(way));
-        for (int c = 0; c < 3; ++c) here[c] += shine[c];
+        for (std::size_t c = 0; c < 3; ++c) here[c] += shine[c];
       }
       if (depth > 0 && optics->reflect.c[0] + optics->reflect.c[1] + optics->reflect.c[2] > 0) {
         const Colour seen = trace(at, along(way, -2 * dot(way, n), n), depth - 1);
-        for (int c = 0; c < 3; ++c) here[c] += optics->reflect.c[c] * seen[c];
+        for (std::size_t c = 0; c < 3; ++c) here[c] += optics->reflect.c[c] * seen[c];
       }
     }
     bool on = false;
-    for (int c = 0; c < 3; ++c) {
+    for (std::size_t c = 0; c < 3; ++c) {
       sum[c] += part[c] * here[c];
       part[c] *= optics == nullptr ? 0 : optics->transmit.c[c];
       on = on || part[c] > 0;
@@ -199,7 +199,7 @@ Colour OpticsTwin::trace(const Point& from, const Point& way, int depth) const {
     if (!on) return sum;
   }
   const Colour seen = background(way);
-  for (int c = 0; c < 3; ++c) sum[c] += part[c] * seen[c];
+  for (std::size_t c = 0; c < 3; ++c) sum[c] += part[c] * seen[c];
   return sum;
 }
 
@@ -221,14 +221,14 @@ std::array<int, 3> OpticsTwin::level(std::uint32_t px, std::uint32_t py, double 
   for (std::uint32_t j = 0; j < across; ++j) {
     for (std::uint32_t i = 0; i < across; ++i) {
       const Colour sample = luminance(px * across + i + dx, py * across + j + dy);
-      for (int c = 0; c < 3; ++c) {
+      for (std::size_t c = 0; c < 3; ++c) {
         const double range = display.max_cd_m2 - display.min_cd_m2, v = (sample[c] - display.min_cd_m2) / range;
         const double shown = display.roll && v > 0.5 ? display.min_cd_m2 + range * (1 - 0.25 / v) : sample[c];
         mean[c] += std::min(shown, display.max_cd_m2) / (across * across);
       }
     }
   }
-  for (int c = 0; c < 3; ++c) {
+  for (std::size_t c = 0; c < 3; ++c) {
     const double v = std::clamp((mean[c] - display.min_cd_m2) / (display.max_cd_m2 - display.min_cd_m2), 0.0, 1.0);
     const double srgb = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
     level[c] = static_cast<int>(std::lround(255 * srgb));
