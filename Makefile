@@ -1,5 +1,6 @@
-# shodo: `make` builds build/shodo. Other targets: rooms, report, test, check-same-bytes, machines, workstation,
-# scaling, memory-cost, check-budgets, install, install-needs, clean.
+# shodo: `make` builds build/shodo. Other targets: rooms, pictures, report, test, hard, stability, load, coverage,
+# check-same-bytes, fuzz, soak, mutants, machines, workstation, scaling, memory-cost, check-budgets, install,
+# install-needs, clean.
 #
 # Settings, on the command line of make:
 #   CXX=clang++ OPT=-O0   another compiler or optimisation; what was built with other flags is built again
@@ -20,7 +21,8 @@ TEST_FLAGS = $(COMMON_FLAGS) -I. -Itests
 
 LIBRARY_SOURCES = $(filter-out src/cli/%,$(wildcard src/*.cpp src/*/*.cpp))
 PROGRAM_SOURCES = $(wildcard src/cli/*.cpp)
-TEST_SOURCES = $(wildcard tests/*/*_test.cpp tests/support/*.cpp)
+TEST_SOURCES = $(wildcard tests/*/*_test.cpp tests/support/*.cpp tests/hard/*_cases.cpp) \
+  $(addprefix tests/hard/,run.cpp scene_text.cpp variants.cpp)
 objects = $(patsubst %.cpp,$(BUILD)/objects/%.o,$(1))
 LIBRARY_OBJECTS = $(call objects,$(LIBRARY_SOURCES))
 PROGRAM_OBJECTS = $(call objects,$(PROGRAM_SOURCES))
@@ -82,12 +84,72 @@ $(OUT)/%.png: data/%.scn $(BUILD)/shodo $(wildcard data/*)
 	@mkdir -p $(OUT)
 	$(BUILD)/shodo render $< -o $@ --stats $(OUT)/$*.json
 
+# Those of doc/measuring.md.
+PICTURE_SCENES = cornell white_box door stair
+pictures: $(PICTURE_SCENES:%=doc/pictures/%.png) doc/pictures/false-colour.png doc/pictures/isolux.png \
+  doc/pictures/patches.png doc/pictures/difference.png
+$(PICTURE_SCENES:%=doc/pictures/%.png): SCENE = $(basename $(notdir $@))
+doc/pictures/false-colour.png: SCENE = evening
+doc/pictures/false-colour.png: SHOWN = --false-colour auto --isolux auto
+doc/pictures/isolux.png: SCENE = door
+doc/pictures/isolux.png: SHOWN = --isolux auto
+doc/pictures/patches.png: SCENE = stair
+doc/pictures/patches.png: SHOWN = --show patches
+doc/pictures/patches.png: PICTURE_SIZE = 320x256
+PICTURE_SIZE = 400x320
+doc/pictures/%.png: $(BUILD)/shodo $(wildcard data/*)
+	$(BUILD)/shodo render data/$(SCENE).scn -o $@ --size $(PICTURE_SIZE) $(SHOWN)
+doc/pictures/difference.png: $(BUILD)/shodo data/door.scn
+	@mkdir -p $(OUT)
+	$(BUILD)/shodo render data/door.scn -o $(OUT)/door.ppm --size 400x320
+	$(BUILD)/shodo render data/door.scn -o $(OUT)/door-2.ppm --size 400x320 --rules 2
+	$(BUILD)/shodo difference $(OUT)/door.ppm $(OUT)/door-2.ppm -o $@
+
 test: $(BUILD)/shodo $(BUILD)/tests
 	@BUILD=$(BUILD) sh tests/run
+
+# All hard cases with their long sweeps: the table, and out/hard.csv (number,name,status,figure).
+hard: $(BUILD)/tests
+	@mkdir -p $(OUT)
+	SHODO_HARD=all SHODO_HARD_TABLE=$(OUT)/hard.csv $(BUILD)/tests --gtest_brief=1 --gtest_filter='HardTable.*'
+
+# The plots and tables of doc/stability.md.
+stability: $(BUILD)/tests
+	SHODO_HARD=all SHODO_STABILITY=doc/pictures $(BUILD)/tests --gtest_brief=1 --gtest_filter='Stability.*:Convergence.*'
+
+# Scenes and pictures as large as the budgets of doc/stability.md allow; takes minutes.
+load: $(BUILD)/shodo $(BUILD)/tests
+	SHODO_HARD=all $(BUILD)/tests --gtest_filter='Load.*:Metamorphic.*'
+
+# The library with counters, the tests as they are: out/coverage.txt.
+COVERED_OBJECTS = $(patsubst %.cpp,$(BUILD)/coverage/objects/%.o,$(LIBRARY_SOURCES))
+$(COVERED_OBJECTS): $(BUILD)/coverage/objects/%.o: %.cpp $(BUILD)/flags.stamp
+	@mkdir -p $(@D)
+	$(CXX) $(LIBRARY_FLAGS) $(CXXFLAGS) --coverage -MMD -MP -c $< -o $@
+$(BUILD)/coverage/tests: $(COVERED_OBJECTS) $(BUILD)/tests
+	$(CXX) $(OPT) $(CXXFLAGS) $(LDFLAGS) --coverage $(TEST_LINK) $(TEST_OBJECTS) $(PROGRAM_PARTS) $(COVERED_OBJECTS) \
+	  -lgtest_main -lgtest -lpthread -o $@
+coverage: $(BUILD)/shodo $(BUILD)/coverage/tests
+	@BUILD=$(BUILD) sh tools/coverage
 
 # Only the comparison of compilers and optimisation levels; part of `make test`.
 check-same-bytes:
 	@sh tests/same_bytes
+
+# Three fuzzers under sanitizers; FUZZ_SECONDS of each. Part of `make test` with a minute.
+FUZZ_SECONDS = 60
+fuzz:
+	@sh tests/fuzz/run $(FUZZ_SECONDS)
+
+# An hour of fuzzing, then 10^8 pairs of segment and triangle against the 128-bit twin and 10^7 segments at seams.
+soak: $(BUILD)/tests
+	@sh tests/fuzz/run 1800
+	SHODO_SOAK=50 $(BUILD)/tests --gtest_filter='TriangleTest.*:Leaks.*'
+
+# The core's code with one sign changed, and whether the tests see it; hours. MUTANTS: how many a group.
+MUTANTS = 20
+mutants:
+	@sh tests/mutants/run $(MUTANTS)
 
 # The program, the library with its headers, what pkg-config and man read (doc/library.md).
 VERSION = $(shell sed -n 's/.*kVersion = "shodo \(.*\)".*/\1/p' src/cli/arguments.h)
@@ -129,8 +191,8 @@ clean:
 	rm -rf $(BUILD) $(OUT)
 
 FORCE:
-.PHONY: all rooms report test check-same-bytes machines workstation scaling memory-cost check-budgets install \
-  install-needs clean FORCE
+.PHONY: all rooms pictures report test hard stability load coverage check-same-bytes fuzz soak mutants machines workstation \
+  scaling memory-cost check-budgets install install-needs clean FORCE
 .SECONDARY:
 
--include $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(TEST_OBJECTS:.o=.d)
+-include $(COVERED_OBJECTS:.o=.d) $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(TEST_OBJECTS:.o=.d)

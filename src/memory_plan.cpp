@@ -1,8 +1,11 @@
 #include "memory_plan.h"
 
 #include "ambient/ambient_memory.h"
+#include "ambient/coloured_panes.h"
+#include "ambient/mirror_share.h"
 #include "ambient/surfaces.h"
 #include "base/check.h"
+#include "light/mirror_light.h"
 #include "light/sources.h"
 #include "model.h"
 
@@ -20,6 +23,15 @@ std::uint64_t larger(std::uint64_t a, std::uint64_t b) { return a > b ? a : b; }
 
 std::uint64_t drawn_bytes(const Model& model) {
   return rounded_up(sizeof(DrawnTriangle) * std::uint64_t{model.geometry.drawn_count});
+}
+
+std::uint64_t mirror_bytes(const Model& model) {
+  return model.options.mirror_light ? MirrorLight::bytes(model.scene, model.geometry) : 0;
+}
+
+/// What panes and mirrors want in the ambient stage.
+std::uint64_t ambient_optics_bytes(const Model& model) {
+  return coloured_panes_bytes(model.scene, model.geometry) + mirror_share_bytes(model.scene, model.options);
 }
 
 /// What load() leaves, and what it takes meanwhile.
@@ -41,6 +53,9 @@ void plan_light(const Model& model, MemoryPlan& plan) {
            kDirect | kAgain | (scene.patch_count > 0 ? kAmbient : 0));
   plan.add(PlanPart::kSources, Sources::bytes(scene),
            kDirect | kAgain);
+  if (const std::uint64_t mirrors = mirror_bytes(model); mirrors > 0) {
+    plan.add(PlanPart::kMirrors, mirrors, kDirect | kAgain);
+  }
   const std::uint64_t result = ambient_result_bytes(scene);
   const std::uint64_t surfaces = surfaces_bytes(scene, options, SurfacesKeep::kNothing);
   const std::uint64_t ambient = smallest_ambient_bytes(scene, model.geometry, options, SurfacesKeep::kNothing);
@@ -49,8 +64,18 @@ void plan_light(const Model& model, MemoryPlan& plan) {
   plan.add(PlanPart::kSurfaces, surfaces, kAmbient);
   plan.add(PlanPart::kLinks, links, kAmbient);
   plan.add(PlanPart::kSolution, ambient - result - surfaces - links, kAmbient);
+  if (const std::uint64_t optics = ambient_optics_bytes(model); optics > 0) {
+    plan.add(PlanPart::kAmbientOptics, optics, kAmbient);
+  }
   plan.add(PlanPart::kSubPatches, direct_sub_patch_bytes(scene),
            kAgain | kMap | kPicture);
+}
+
+/// Nothing for scenes without planes.
+void plan_planes(const Model& model, MemoryPlan& plan) {
+  if (model.scene.planes.empty()) return;
+  plan.add(PlanPart::kPlanes, plane_map_bytes(model.scene), kAgain | kMap | kPicture);
+  plan.add(PlanPart::kMeasuring, gather_bytes(model.scene), kAgain);
 }
 
 void plan_picture(const Model& model, MemoryPlan& plan) {
@@ -78,26 +103,30 @@ const char* plan_stage_name(PlanStage stage) {
 PartText plan_part_text(PlanPart part) {
   static constexpr PartText kTexts[] = {
       {"the model", "its structure, and up to 7 for alignment"},
-      {"scene", "40 materials + 40 objects + 56 meshes + 24 vertices + 248 lights + 96 cameras + names"},
+      {"scene", "40 materials + 40 objects + 56 meshes + 24 vertices + 248 lights + 96 cameras + 136 planes + names"},
       {"triangles that block", "72 triangles + 8 polygons + 4 meshes + 20 lights"},
       {"triangles of the picture", "68 drawn triangles; spare: given up while there is light to find"},
       {"while placing", "16 vertices + 24 polygons + 12 insertions + a tree; then 72 n, the patches"},
       {"flags", "2 (objects + lights)"},
       {"direct light of the patches", "(8 c + 8) n"},
       {"possible blockers", "32 facets + 24 boxes + 8 facets"},
-      {"light sources", "4,096 + 112 lights + 168 faces that emit + 44 ends of segments"},
+      {"light sources", "4,096 + 400 lights + 168 faces that emit + 44 ends of segments"},
+      {"mirrors that send light on", "48 a triangle, with --mirror-light on"},
       {"ambient light of the patches", "8 c n"},
       {"surfaces", "12 a node + 32 blocks + 33 meshes (9 with blocks) + 3,716; their geometry is found again"},
       {"which nodes are linked",
        "2 n a level of blocks; with blocks 20 a node + 4 blocks + "
-       "32 meshes + 12,288 + 17 facets"},
+       "32 meshes + 39 facets (24 of them in steps of 64)"},
       {"solution",
        "16 c + 8 a node (+ 2 with rules 1 and 2, 16 with 2+) + one "
        "row + the coarse correction; rows: what is left"},
+      {"ambient light by channel, over mirrors", "8 c n where panes are coloured, 24 c n with --mirror-light on"},
       {"direct light of the sub-patches", "(4 c + 1) s; spare: given up to the rows"},
+      {"light of measuring planes", "(8 c + 1) sub-patches of planes"},
+      {"while measuring", "(44 + 8 c) sub-patches of a plane's patch"},
       {"ambient maps", "4 c s"},
       {"spreading over a mesh", "9 a patch + 8 a row of sub-patches, of the largest mesh"},
-      {"drawing, or placing again", "2 c s + 8193 + (4 c + 3) width + 4 rows + 4 drawn + 392 active triangles"},
+      {"drawing, or placing again", "2 c s + 8193 + (4 c + 3) width + 4 rows + 10 drawn + 208 active triangles"},
   };
   static_assert(sizeof kTexts / sizeof(PartText) == static_cast<std::size_t>(PlanPart::kDrawing) + 1);
   return kTexts[static_cast<std::size_t>(part)];
@@ -123,6 +152,7 @@ MemoryPlan plan_memory(const Model& model, bool picture) {
   MemoryPlan plan;
   plan_scene(model, plan);
   plan_light(model, plan);
+  plan_planes(model, plan);
   plan_picture(model, plan);
   if (!picture) plan.stage[static_cast<std::size_t>(PlanStage::kPicture)] = 0;
   return plan;
@@ -134,12 +164,14 @@ bool keeps_geometry(const Model& model) {
   const std::uint64_t flags = features::aims(options.flags) ? FlagTables::bytes(scene) : 0;
   const std::uint64_t blockers = Intersector::bytes(model.geometry, options.flags);
   const std::uint64_t patches = model.after_patches + flags + direct_patch_bytes(scene);
-  const std::uint64_t solved = patches + ambient_result_bytes(scene) + direct_sub_patch_bytes(scene);
+  const std::uint64_t solved = patches + ambient_result_bytes(scene) + direct_sub_patch_bytes(scene) +
+                               plane_map_bytes(scene);
   const std::uint64_t ambient = smallest_ambient_bytes(scene, model.geometry, options, SurfacesKeep::kGeometry);
   const std::uint64_t rows = expected_row_bytes(scene, options);
   // Geometry costs less to find again than the direct light that would have to make room for it.
-  std::uint64_t most = patches + blockers + ambient + rows + (rows > 0 ? direct_sub_patch_bytes(scene) : 0);
-  most = larger(most, solved + blockers + Sources::bytes(scene));
+  const std::uint64_t optics = ambient_optics_bytes(model);
+  std::uint64_t most = patches + blockers + ambient + optics + rows + (rows > 0 ? direct_sub_patch_bytes(scene) : 0);
+  most = larger(most, solved + blockers + Sources::bytes(scene) + gather_bytes(scene) + mirror_bytes(model));
   most = larger(most, solved + map_bytes(scene, options));
   return most <= model.arena.capacity();
 }

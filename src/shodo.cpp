@@ -7,6 +7,7 @@
 
 #include <new>
 
+#include "ambient/mirror_share.h"
 #include "base/self_check.h"
 #include "base/text.h"
 #include "memory_plan.h"
@@ -67,6 +68,8 @@ void count_scene(Model& model) {
   Statistics& statistics = model.statistics;
   statistics.objects = static_cast<std::uint32_t>(model.scene.objects.size());
   statistics.meshes = static_cast<std::uint32_t>(model.scene.meshes.size());
+  statistics.planes = static_cast<std::uint32_t>(model.scene.planes.size());
+  statistics.plane_sub_patches = model.scene.plane_sub_patch_count;
   statistics.channels = model.scene.channels;
   statistics.lattice_step = model.geometry.lattice.step();
   statistics.vertices_inserted = model.geometry.inserted;
@@ -150,6 +153,9 @@ void give_up_patches(Model& model) {
   const bool with_direct = !model.arena.holds(model.direct.sub_patch_lx);
   const std::size_t by = model.arena.lower(model.before_maps, model.after_geometry);
   model.before_maps = model.after_geometry;
+  move_down(model.planes.direct_lx, by);
+  move_down(model.planes.ambient_lx, by);
+  move_down(model.planes.hidden, by);
   move_down(model.maps.ambient_lx, by);
   if (with_direct) {
     move_down(model.direct.sub_patch_lx, by);
@@ -164,8 +170,9 @@ void give_up_patches(Model& model) {
   model.ambient = {};
 }
 
-/// The drawn triangles, if the light took their memory, and the picture.
-Status place_and_draw(Model& model, const Progress& progress, const LineSink& sink) {
+/// The drawn triangles, if the light took their memory, and then what is made of them: draw(arena).
+template <class Draw>
+Status place_and_draw(Model& model, Draw draw) {
   Geometry& geometry = model.geometry;
   Arena& arena = model.arena;
   const bool held = arena.holds(geometry.drawn) && geometry.drawn.size() == geometry.drawn_count;
@@ -177,9 +184,22 @@ Status place_and_draw(Model& model, const Progress& progress, const LineSink& si
     if (!place_drawn(model.scene, arena, geometry)) return arena.refused();
     model.statistics.placed_again = 1;
   }
-  const Status status = draw_picture(model.scene, geometry, model.maps, model.options, progress, arena, sink);
+  const Status status = draw(arena);
   if (!held) geometry.drawn = {};
   return status;
+}
+
+template <class Draw>
+Status draw_solved(Model& model, const Progress& progress, Draw draw) {
+  if (const Status fit = self_check(); !fit.done()) return fit;
+  if (!model.solved) return wrong_use("expected a solved model, found one that is only loaded");
+  const std::uint64_t needed = smallest_memory(model);
+  if (needed > model.memory_bytes) return too_small(needed, model.memory_bytes);
+  if (!progress.go_on(Stage::kPicture, 0, 1)) return interrupted();
+  model.arena.start_stage();
+  const Status status = place_and_draw(model, draw);
+  end_stage(model, MemoryStage::kPicture);
+  return with_model(status, model.overhead);
 }
 
 }  // namespace
@@ -247,15 +267,22 @@ Status solve_directly(Model& model, const Progress& progress) {
 }
 
 Status solve_ambiently(Model& model, const Progress& progress) {
-  const Status status = light_ambiently(model.scene, model.geometry, model.patches, model.direct, model.intersector,
-                                        model.options, progress, model.arena, model.ambient, model.statistics);
+  const Status status = light_ambiently_with_optics(model.scene, model.geometry, model.patches, model.direct,
+                                                    model.intersector, model.options, progress, model.arena,
+                                                    model.ambient, model.statistics);
   end_stage(model, MemoryStage::kAmbient);
   return with_model(status, model.overhead);
 }
 
 Status solve_maps(Model& model, const Progress& progress) {
   model.before_maps = model.arena.mark();
-  Status status = keep_sub_patches(model, progress);
+  Status status;
+  if (!model.scene.planes.empty()) {
+    status = measure_planes({model.scene, model.geometry, model.patches, model.direct, model.ambient}, model.options,
+                            model.intersector, progress, model.arena, model.planes, model.statistics);
+    if (!status.done()) return with_model(status, model.overhead);
+  }
+  status = keep_sub_patches(model, progress);
   end_stage(model, MemoryStage::kDirect);
   if (!status.done()) return with_model(status, model.overhead);
   model.flags = model.intersector.flags();
@@ -275,15 +302,15 @@ Status solve(Model& model, const Progress& progress) {
 }
 
 Status draw(Model& model, const Progress& progress, const LineSink& sink) {
-  if (const Status fit = self_check(); !fit.done()) return fit;
-  if (!model.solved) return wrong_use("expected a solved model, found one that is only loaded");
-  const std::uint64_t needed = smallest_memory(model);
-  if (needed > model.memory_bytes) return too_small(needed, model.memory_bytes);
-  if (!progress.go_on(Stage::kPicture, 0, 1)) return interrupted();
-  model.arena.start_stage();
-  const Status status = place_and_draw(model, progress, sink);
-  end_stage(model, MemoryStage::kPicture);
-  return with_model(status, model.overhead);
+  return draw_solved(model, progress, [&](Arena& arena) {
+    return draw_picture(model.scene, model.geometry, model.maps, model.options, progress, arena, sink);
+  });
+}
+
+Status see(Model& model, const Progress& progress, const SeenSink& sink) {
+  return draw_solved(model, progress, [&](Arena& arena) {
+    return see_points(model.scene, model.geometry, model.options, progress, arena, sink);
+  });
 }
 
 const Statistics& statistics(const Model& model) { return model.statistics; }

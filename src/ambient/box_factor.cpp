@@ -1,5 +1,7 @@
 #include "ambient/box_factor.h"
 
+#include <bit>
+
 namespace shodo {
 
 namespace {
@@ -9,6 +11,19 @@ constexpr double kFarthest = 2500;  // squared distance over squared sides
 double term(double x, double root) { return x * root * arctangent(x / root); }
 
 double log_term(double factor, double squared) { return squared > 0 ? factor * logarithm(squared) : 0; }
+
+/// The power of two that brings lengths to about 1: logarithms of their squares then lose no digits, and a scene scaled
+/// by a power of two has the same bits. `squared` above 0 and normal.
+double to_unit(double squared) {
+  const std::int64_t exponent = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(squared) >> 52) - 1023;
+  return std::bit_cast<double>(static_cast<std::uint64_t>(1023 - (exponent >> 1)) << 52);
+}
+
+/// Two bounds in such units.
+struct Bounds {
+  double of[2];
+  Bounds(double scale, double low, double high) : of{scale * low, scale * high} {}
+};
 
 /// 2 pi G; the bounds along the two common directions and the distance.
 double parallel(const double* i_u, const double* j_u, const double* i_v, const double* j_v, double z) {
@@ -85,22 +100,24 @@ double box_exchange(const AxisRectangle& i, const AxisRectangle& j) {
     sides += side_i * side_i + side_j * side_j;
   }
   if (apart > kFarthest * sides) return -1;
+  const double scale = to_unit(sides);
   double exchange;
   if (i.axis == j.axis) {
     const int u = (i.axis + 1) % 3, v = (i.axis + 2) % 3;
     const double over = j.low[i.axis] - i.low[i.axis];
     if (i.up == j.up || !(i.up ? over > 0 : over < 0)) return 0;
-    const double i_u[2] = {i.low[u], i.high[u]}, j_u[2] = {j.low[u], j.high[u]};
-    const double i_v[2] = {i.low[v], i.high[v]}, j_v[2] = {j.low[v], j.high[v]};
-    exchange = parallel(i_u, j_u, i_v, j_v, over);
+    const Bounds i_u(scale, i.low[u], i.high[u]), j_u(scale, j.low[u], j.high[u]);
+    const Bounds i_v(scale, i.low[v], i.high[v]), j_v(scale, j.low[v], j.high[v]);
+    exchange = parallel(i_u.of, j_u.of, i_v.of, j_v.of, scale * over);
   } else {
     const int common = 3 - i.axis - j.axis;
     double x[2], z[2];
     if (!in_front(i, j, x) || !in_front(j, i, z)) return 0;
-    const double i_v[2] = {i.low[common], i.high[common]}, j_v[2] = {j.low[common], j.high[common]};
-    exchange = square(x, z, i_v, j_v);
+    const Bounds over_j(scale, x[0], x[1]), over_i(scale, z[0], z[1]);
+    const Bounds i_v(scale, i.low[common], i.high[common]), j_v(scale, j.low[common], j.high[common]);
+    exchange = square(over_j.of, over_i.of, i_v.of, j_v.of);
   }
-  return exchange > 0 ? exchange / kTwoPi : 0;
+  return exchange > 0 ? exchange / (kTwoPi * scale * scale) : 0;
 }
 
 }  // namespace shodo

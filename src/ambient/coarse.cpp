@@ -66,12 +66,15 @@ void Coarse::apply(std::span<const double> reflectance, std::span<const double> 
   }
 }
 
-void Coarse::solve(std::uint32_t channel, std::span<const double> area, std::span<const double> reflectance,
+void Coarse::solve(std::uint32_t channel, double relaxation, std::span<const double> area, std::span<const double> reflectance,
                    std::span<double> delta) {
   // Residual: changes of patches after i, by mean change of their group; half of its own group lies after a patch.
   for (std::uint32_t g = 0; g < groups_; ++g) {
     residual_[g] = delta[g] = direction_[g] = 0;
     if (!(reflectance[g] > 0)) continue;
+    if (relaxation > 1 && area[g] > 0) {
+      residual_[g] = (1 / relaxation - 1) * weight_[g] * (change_[g * channels_ + channel] / area[g]);
+    }
     for (std::uint32_t h = g; h < groups_; ++h) {
       if (!(area[h] > 0)) continue;
       const double mean = change_[h * channels_ + channel] / area[h];

@@ -6,7 +6,7 @@
 //     a_g delta_g - sum over h of T_gh rho_h delta_h = r_g,   a_g = sum of A_i / s_i,   T_gh = sum of G_ij V_ij,
 // r_g the weighted residual. T is symmetric and the same for all channels; with u = rho delta the matrix is symmetric
 // and positive definite, and a few steps of conjugate gradients solve it. After a sweep the residual of patch i is
-// sum over j > i of M_ij (new_j - old_j); the mean change of each mesh stands for those of its patches. That, single
+// sum over j > i of M_ij (new_j - old_j), and with a relaxation w (1 / w - 1) (new_i - old_i); the mean change of each mesh stands for those of its patches. That, single
 // precision and the few steps cost speed of convergence only: sweeps decide what the solution is.
 //
 // More than kMostGroups meshes share values, neighbours in the order of ambient/surfaces.h: a rule that doesn't look at
@@ -49,8 +49,8 @@ class Coarse {
   void add_change(std::uint32_t g, std::uint32_t channel, double area, double change) {
     change_[g * channels_ + channel] += area * change;
   }
-  /// delta of each group, given each group's area and mean reflectance.
-  void solve(std::uint32_t channel, std::span<const double> area, std::span<const double> reflectance,
+  /// delta of each group, given each group's area and mean reflectance, after a sweep with that relaxation.
+  void solve(std::uint32_t channel, double relaxation, std::span<const double> area, std::span<const double> reflectance,
              std::span<double> delta);
 
  private:

@@ -6,7 +6,7 @@ namespace shodo {
 
 namespace {
 
-/// Sweeps without the least change seen so far growing less, after which nothing better is expected.
+/// Settled sweeps in which no change is less than the least of as many before: after them nothing better is expected.
 constexpr std::uint32_t kPatience = 30;
 /// Sweeps with larger changes than the sweep before, after which corrections are no longer tried.
 constexpr std::uint32_t kSetbacks = 3;
@@ -14,6 +14,7 @@ constexpr std::uint32_t kSetbacks = 3;
 /// By channel: what a sweep changed at most, and the largest illuminance.
 struct SweepResult {
   double change[3] = {0, 0, 0};
+  double missed[3] = {0, 0, 0};  // at most, by how much values were left beside what their row asks for
   double largest[3] = {0, 0, 0};
   bool finished = true;
 
@@ -31,6 +32,7 @@ struct Run {
   Solver& solver;
   std::uint32_t channels;
   bool doubles;
+  double relaxation = 1;  // a patch goes so many times the way that its row asks for
 };
 
 /// 0 as a template's argument: known only now.
@@ -72,8 +74,14 @@ void update(Run& run, std::uint32_t i, std::uint32_t group, const double* reflec
   const std::uint32_t channels = channels_of<kChannels>(run);
   for (std::uint32_t c = 0; c < channels; ++c) {
     const std::size_t at = std::size_t{surfaces.patch_at[i]} * channels + c;
-    const double ambient = factor * sum[c];
-    const double change = ambient - run.solver.ambient_lx[at];
+    const double asked = factor * sum[c], before = run.solver.ambient_lx[at];
+    double ambient = asked;
+    if (run.relaxation > 1) {
+      ambient = before + run.relaxation * (asked - before);
+      if (ambient < 0) ambient = 0;
+      if (magnitude(asked - ambient) > result.missed[c]) result.missed[c] = magnitude(asked - ambient);
+    }
+    const double change = ambient - before;
     const double total = run.direct.patch_lx[at] + ambient;
     run.solver.ambient_lx[at] = ambient;
     run.solver.sent[std::size_t{i} * channels + c] = run.matrix.sparsity.sends(i) ? reflectance[c] * root * total : 0;
@@ -197,7 +205,8 @@ SweepResult sweep_once(Run& run) {
   return grey ? sweep<RowFormat::kShort, 1>(run) : sweep<RowFormat::kShort, 3>(run);
 }
 
-/// rho_i R_i (E0_i + a_i) of every patch, with the correction of its group added to a_i first. Light is never negative.
+/// rho_i R_i (E0_i + a_i) of every patch, with the correction of its group added to a_i first. Light is never negative;
+/// and a patch that no light has reached is lent none, so that a mesh of which a part is closed in stays dark there.
 void correct_and_send(Run& run, std::uint32_t c) {
   const Surfaces& surfaces = run.matrix.surfaces;
   const Sparsity& sparsity = run.matrix.sparsity;
@@ -208,7 +217,9 @@ void correct_and_send(Run& run, std::uint32_t c) {
     at.go_to(i);
     const std::size_t patch = std::size_t{surfaces.patch_at[i]} * channels + c;
     double& ambient = run.solver.ambient_lx[patch];
-    if (sparsity.receives(i)) ambient += run.solver.group_delta[run.matrix.coarse.group_of_mesh(at.place())];
+    if (sparsity.receives(i) && ambient > 0) {
+      ambient += run.solver.group_delta[run.matrix.coarse.group_of_mesh(at.place())];
+    }
     if (ambient < 0) ambient = 0;
     const double total = run.direct.patch_lx[patch] + ambient;
     run.solver.sent[std::size_t{i} * channels + c] =
@@ -219,8 +230,8 @@ void correct_and_send(Run& run, std::uint32_t c) {
 void correct(Run& run) {
   const std::uint32_t groups = run.matrix.coarse.groups();
   for (std::uint32_t c = 0; c < run.matrix.surfaces.scene->channels; ++c) {
-    run.matrix.coarse.solve(c, run.solver.group_area, run.solver.group_reflectance.subspan(c * groups, groups),
-                            run.solver.group_delta);
+    run.matrix.coarse.solve(c, run.relaxation, run.solver.group_area,
+                            run.solver.group_reflectance.subspan(c * groups, groups), run.solver.group_delta);
     correct_and_send(run, c);
   }
   sum_up(run, 0, run.matrix.surfaces.size());
@@ -270,7 +281,8 @@ Bound bound_after(const Run& run, const SweepResult& result) {
   for (std::uint32_t c = 0; c < run.matrix.surfaces.scene->channels; ++c) {
     const double left = 1 - run.matrix.reflected[c] * (1 + rounding);  // the sums themselves are rounded
     if (!(left > 0)) return {kNoBound, 0};
-    const double from_changes = run.matrix.reflected_upper[c] * (1 + rounding) * result.change[c];
+    const double from_changes =
+        run.matrix.reflected_upper[c] * (1 + rounding) * result.change[c] + (1 + rounding) * result.missed[c];
     const double from_rounding = rounding * result.largest[c];
     const double error = (from_changes + from_rounding) / (left * largest);
     if (error > bound.error) bound = {error, from_rounding / (left * largest)};
@@ -280,20 +292,67 @@ Bound bound_after(const Run& run, const SweepResult& result) {
 
 /// Tells when to stop, and whether corrections still help.
 struct Watch {
-  double least = kInfinity;
+  double least = kInfinity;         // of the changes of these kPatience sweeps
+  double least_before = kInfinity;  // and of those before
   double last = kInfinity;
-  std::uint32_t since = 0;
+  std::uint32_t sweeps = 0;
   std::uint32_t setbacks = 0;
 
-  void note(double change) {
-    if (change > last) ++setbacks;
+  /// `settled`: changes may be compared with the sweep's before.
+  void note(double change, bool settled) {
+    const bool first = last == kInfinity;
+    if (settled && change > last) ++setbacks;
     last = change;
-    ++since;
-    if (change < least) {
-      least = change;
-      since = 0;
+    if (first || !settled) return;  // the first has no correction before it
+    if (sweeps == kPatience) {
+      least_before = least;
+      least = kInfinity;
+      sweeps = 0;
     }
+    ++sweeps;
+    if (change < least) least = change;
   }
+  bool hopeless() const { return sweeps == kPatience && !(least < least_before); }
+};
+
+/// Over-relaxation (Young 1950; Hageman and Young 1981, 9) where changes fall slowly, as along a corridor or between
+/// plates: what the coarse correction can't represent. One sweep's largest change over the one before tells the rate;
+/// from it the eigenvalue of plain sweeps, and from that the best relaxation. Rooms converge before it starts.
+class Relaxation {
+ public:
+  double value() const { return value_; }
+  /// Whether it has been the same for some sweeps.
+  bool settled() const { return value_ == 1 || sweeps_ >= kSettle; }
+  void note(double change) {
+    const double ratio = last_ > 0 ? change / last_ : 0;
+    last_ = change;
+    if (++sweeps_ <= kSettle) {
+      largest_ = 0;
+      return;
+    }
+    if (ratio > largest_) largest_ = ratio;
+    if (sweeps_ < kSettle + kWatch) return;
+    // Slower than the relaxation's own rate: the slowest mode isn't reached yet.
+    if (largest_ > kSlow && largest_ > value_ - 1 + kMargin) raise();
+    sweeps_ = value_ > 1 ? 0 : kSettle;
+    largest_ = 0;
+  }
+
+ private:
+  static constexpr std::uint32_t kSettle = 6, kWatch = 4;
+  static constexpr double kSlow = 0.5, kMargin = 0.02, kMost = 1.97;
+
+  void raise() {
+    const double rate = largest_ < 1 ? largest_ : 1;
+    const double of_both = rate + value_ - 1;
+    const double plain = of_both * of_both / (rate * value_ * value_);
+    const double best = plain < 1 ? 2 / (1 + square_root(1 - plain)) : kMost;
+    const double next = best < kMost ? best : kMost;
+    if (next > value_) value_ = next;
+  }
+
+  double value_ = 1, last_ = 0, largest_ = 0;
+  std::uint32_t sweeps_ = 0;
 };
 
 double largest_change(const SweepResult& result) {
@@ -309,6 +368,7 @@ Status solve_rows(const DirectLight& direct, const Intersector& intersector, con
   const double tolerance = matrix.options->tolerance;
   prepare(run);
   Watch watch;
+  Relaxation relaxation;
   Status status;
   for (;;) {
     const SweepResult result = sweep_once(run);
@@ -320,12 +380,12 @@ Status solve_rows(const DirectLight& direct, const Intersector& intersector, con
     const Bound bound = bound_after(run, result);
     statistics.solution_bound = bound.error;
     const double change = largest_change(result);
-    watch.note(change);
+    watch.note(change, relaxation.settled());
     const bool only_rounding = bound.error < kNoBound && bound.error <= 2 * bound.rounding;
-    if (bound.error <= tolerance || only_rounding || !(change > 0) || watch.since >= kPatience) return status;
-    if (watch.setbacks < kSetbacks) {
-      correct(run);
-    }
+    if (bound.error <= tolerance || only_rounding || !(change > 0) || watch.hopeless()) return status;
+    if (watch.setbacks < kSetbacks) correct(run);
+    relaxation.note(change);
+    run.relaxation = relaxation.value();
   }
 }
 

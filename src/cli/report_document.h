@@ -58,7 +58,7 @@ struct Table {
 /// A point of a scatter plot. x and y above 0.
 struct PlotPoint {
   double x = 0, y = 0;
-  std::uint32_t number = 0;  // printed beside it
+  std::uint32_t number = 0;  // printed beside it; 0: nothing is
   std::uint32_t group = 0;   // its mark
   bool efficient = false;    // ringed, and on the line
   std::string told;          // shown when pointed at

@@ -217,7 +217,9 @@ class Drawing {
     }
     out_ += "<g font-size=\"10\" paint-order=\"stroke\" stroke=\"#fff\" stroke-width=\"2.5\" "
             "stroke-linejoin=\"round\">\n";
-    for (const PlotPoint& p : plot_.points) out_ += labels.place(px(p.x), py(p.y), p.number);
+    for (const PlotPoint& p : plot_.points) {
+      if (p.number != 0) out_ += labels.place(px(p.x), py(p.y), p.number);
+    }
     out_ += "</g>\n";
   }
 
@@ -231,6 +233,7 @@ class Drawing {
       words(x + 9, y + 4, "start", plot_.groups[group]);
       x += 24 + 5.4 * static_cast<double>(plot_.groups[group].size());
     }
+    if (std::none_of(plot_.points.begin(), plot_.points.end(), [](const PlotPoint& p) { return p.efficient; })) return;
     out_ += printed("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"6\" fill=\"none\" stroke=\"#222\"/>\n", x, y);
     words(x + 10, y + 4, "start", "efficient");
   }

@@ -61,23 +61,8 @@ bool read_attenuation(SceneReading& reading) {
   return reading.words.expected(at, "an attenuation that is not 0 0 0");
 }
 
-/// A light that nobody sees behind: four different corners, convex, in one plane as nearly as it matters.
-bool read_light_quad(SceneReading& reading) {
-  Light& light = value_of<Light>(reading);
-  const Token at = reading.words.peek();
-  for (std::uint32_t k = 0; k < 4; ++k) {
-    if (!read_point(reading.words, {"corner", k + 1}, light.corners[k])) return false;
-  }
-  const Vec3* c = light.corners;
-  bool good = quad_shape(c) == QuadShape::kConvex;
-  for (std::uint32_t k = 0; k < 4; ++k) good = good && c[k] != c[(k + 3) % 4];
-  const double a = length(c[2] - c[0]), b = length(c[3] - c[1]);
-  const double off = dot(c[1] - c[0], unit_vector(cross(c[2] - c[0], c[3] - c[1])));  // between the diagonals
-  const double most = kFlat * (a > b ? a : b);
-  if (good && off <= most && off >= -most) return true;
-  reading.words.mistake(at).add("expected the four corners of a plane convex quad with an area");
-  return false;
-}
+/// A light that nobody sees behind.
+bool read_light_quad(SceneReading& reading) { return read_plane_quad(reading, value_of<Light>(reading).corners); }
 
 /// Only an object with faces can shine, and only as one light.
 bool read_light_object(SceneReading& reading) {
@@ -154,6 +139,22 @@ bool read_flags(SceneReading& reading, GivenFlags& flags) {
   }
   if (any && !starts_flag(words)) return true;
   return words.expected("+ or - before blocks, shadowed_towards or shadowed_leaving");
+}
+
+bool read_plane_quad(SceneReading& reading, Vec3* corners) {
+  const Token at = reading.words.peek();
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    if (!read_point(reading.words, {"corner", k + 1}, corners[k])) return false;
+  }
+  const Vec3* c = corners;
+  bool good = quad_shape(c) == QuadShape::kConvex;
+  for (std::uint32_t k = 0; k < 4; ++k) good = good && c[k] != c[(k + 3) % 4];
+  const double a = length(c[2] - c[0]), b = length(c[3] - c[1]);
+  const double off = dot(c[1] - c[0], unit_vector(cross(c[2] - c[0], c[3] - c[1])));  // between the diagonals
+  const double most = kFlat * (a > b ? a : b);
+  if (good && off <= most && off >= -most) return true;
+  reading.words.mistake(at).add("expected the four corners of a plane convex quad with an area");
+  return false;
 }
 
 /// light NAME point|area|polyhedron|sun, then its values

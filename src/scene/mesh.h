@@ -57,6 +57,10 @@ Piece cell_piece(const Scene& scene, const Mesh& mesh, std::uint32_t cell);
 /// The cell that holds a patch; a patch never spans two.
 std::uint32_t cell_of_patch(const Mesh& mesh, std::uint32_t local_patch);
 
+/// A plane as one piece, and its sub-patch `local`, row by row from corner 0, u along its first edge.
+Piece plane_piece(const Plane& plane);
+Piece plane_sub_patch(const Plane& plane, std::uint32_t local);
+
 /// What light and ambient stages need of a patch; 72 bytes each.
 struct Patch {
   Vec3 centre;

@@ -1,4 +1,4 @@
-// The statements that make surfaces: object, quad, tri, grid, sub (and obj, to come).
+// The statements that make surfaces: object, quad, tri, grid, sub (and obj, to come); and plane, which measures.
 //
 // Faces without area are left out and counted; a quad with two equal neighbouring corners becomes the triangle that it
 // is, divided by the larger of its two counts (a quad that is not convex takes the larger for both, see mesh.h). A grid
@@ -231,6 +231,27 @@ bool read_grid(SceneReading& reading) {
   mesh.wraps_u = reading.store.storing() && wraps(reading.store, mesh);
   GivenCounts given;
   return read_keys(reading, kCountKeys, kGrid, &given) && add_mesh(reading, mesh, given);
+}
+
+/// plane NAME, 4 corners [patches NU NV] [sub SU SV]; like a light it doesn't end an object.
+bool read_plane(SceneReading& reading) {
+  Token name;
+  Plane plane;
+  GivenCounts given;
+  if (!read_new_name(reading, "the name of a plane", &SceneStore::find_plane, name)) return false;
+  if (!read_plane_quad(reading, plane.corners)) return false;
+  if (!read_keys(reading, kCountKeys, kQuad, &given)) return false;
+  if (reading.wanted.kind == Wanted::Kind::kPlane && reading.wanted.index == reading.store.counts().planes) {
+    reading.words.place(reading.statement);
+    return false;
+  }
+  plane.nu = given.nu;
+  plane.nv = given.nv;
+  plane.su = given.su;
+  plane.sv = given.sv;
+  plane.name = reading.store.add_name(name.text);
+  reading.store.add(plane);
+  return true;
 }
 
 bool read_obj(SceneReading& reading) { return not_supported_yet(reading, reading.statement); }

@@ -1,6 +1,7 @@
 // The loop over the statements, and those about the scene as a whole: shodo, unit, display, camera, include, material.
 #include "scene/statements.h"
 
+#include "scene/optics_statements.h"
 #include "scene/values.h"
 
 namespace shodo {
@@ -13,9 +14,11 @@ struct Statement {
 };
 
 constexpr Statement kStatements[] = {
-    {"camera", read_camera}, {"display", read_display},   {"grid", read_grid}, {"include", read_include},
-    {"light", read_light},   {"material", read_material}, {"obj", read_obj},   {"object", read_object},
-    {"quad", read_quad},     {"sub", read_sub},           {"tri", read_tri},   {"unit", read_unit},
+    {"background", read_background}, {"camera", read_camera}, {"display", read_display},   {"grid", read_grid},
+    {"include", read_include},       {"light", read_light},   {"material", read_material}, {"obj", read_obj},
+    {"object", read_object},         {"plane", read_plane},   {"quad", read_quad},         {"sub", read_sub},
+    {"tri", read_tri},
+    {"unit", read_unit},
 };
 
 bool expected_statement(Words& words) {
@@ -103,17 +106,35 @@ constexpr Key kCameraKeys[] = {{"eye", kAlways, kAlways, read_eye},
 // 2^-40 of a radian moves a picture by less than 10^-8 of a pixel.
 constexpr double kParallel = 0x1p-40;
 
+/// A material as its statement is read.
+struct MaterialWords {
+  Material material;
+  Optics optics;
+};
+
 bool read_diffuse(SceneReading& reading) {
-  return read_grey_or_colour(reading.words, {"diffuse"}, {0, kLargestReflectance}, value_of<Material>(reading).diffuse);
+  return read_grey_or_colour(reading.words, {"diffuse"}, {0, kLargestReflectance},
+                             value_of<MaterialWords>(reading).material.diffuse);
+}
+bool read_reflect(SceneReading& reading) {
+  return read_grey_or_colour(reading.words, {"reflect"}, {0, kLargestReflectance},
+                             value_of<MaterialWords>(reading).optics.reflect);
+}
+bool read_transmit(SceneReading& reading) {
+  return read_grey_or_colour(reading.words, {"transmit"}, {0, kLargestReflectance},
+                             value_of<MaterialWords>(reading).optics.transmit);
+}
+bool read_highlight(SceneReading& reading) {
+  return read_highlight(reading.words, value_of<MaterialWords>(reading).optics);
 }
 
 bool read_later(SceneReading& reading) { return not_supported_yet(reading, reading.key); }
 
 constexpr Key kMaterialKeys[] = {{"diffuse", kAlways, kAlways, read_diffuse},
                                  {"texture", kAlways, 0, read_later},
-                                 {"reflect", kAlways, 0, read_later},
-                                 {"transmit", kAlways, 0, read_later},
-                                 {"highlight", kAlways, 0, read_later}};
+                                 {"reflect", kAlways, 0, read_reflect},
+                                 {"transmit", kAlways, 0, read_transmit},
+                                 {"highlight", kAlways, 0, read_highlight}};
 
 }  // namespace
 
@@ -205,7 +226,7 @@ bool read_unit(SceneReading& reading) {
   return words.expected("m, cm, mm, in or ft");
 }
 
-/// display MIN MAX: once.
+/// display MIN MAX [clip|roll]: once.
 bool read_display(SceneReading& reading) {
   Words& words = reading.words;
   if (reading.display_given) return words.expected(reading.statement, "'display' once only");
@@ -214,6 +235,11 @@ bool read_display(SceneReading& reading) {
   const Token at = words.peek();
   if (!read_number(words, {"display maximum, cd/m2"}, kNotNegative, display.max_cd_m2)) return false;
   if (!(display.max_cd_m2 > display.min_cd_m2)) return words.expected(at, "a display maximum above the minimum");
+  if (words.at_word()) {
+    display.roll = words.peek().text == "roll";
+    if (!display.roll && words.peek().text != "clip") return words.expected("clip, roll or the end of the line");
+    words.take();
+  }
   return reading.display_given = true;
 }
 
@@ -249,14 +275,17 @@ bool read_include(SceneReading& reading) {
   return true;
 }
 
-/// material NAME diffuse RHO | R G B
+/// material NAME diffuse RHO | R G B, and more: texture, reflect, transmit, highlight
 bool read_material(SceneReading& reading) {
   Token name;
   if (!read_new_name(reading, "the name of a material", &SceneStore::find_material, name)) return false;
-  Material material;
-  if (!read_keys(reading, kMaterialKeys, kAlways, &material)) return false;
-  material.name = reading.store.add_name(name.text);
-  reading.store.add(material);
+  MaterialWords words;
+  if (!read_keys(reading, kMaterialKeys, kAlways, &words)) return false;
+  if (!keep_energy(reading, name, words.material, words.optics)) return false;
+  words.optics.material = static_cast<std::uint32_t>(reading.store.counts().materials);
+  words.material.name = reading.store.add_name(name.text);
+  reading.store.add(words.material);
+  if (does_anything(words.optics)) reading.store.add(words.optics);
   return true;
 }
 

@@ -16,7 +16,7 @@ namespace shodo {
 
 /// Something whose place in the file is asked for afterwards: a mistake that shows only when the whole scene is known.
 struct Wanted {
-  enum class Kind : std::uint8_t { kNothing, kMesh, kCamera };
+  enum class Kind : std::uint8_t { kNothing, kMesh, kCamera, kPlane };
   Kind kind = Kind::kNothing;
   std::uint32_t index = 0;
 };
@@ -35,6 +35,7 @@ struct SceneReading {
   bool started = false;
   bool unit_given = false;
   bool display_given = false;
+  bool background_given = false;
   std::uint32_t sub_u = 0, sub_v = 0;  // `sub` of the object that the next mesh belongs to; 0: not given
 };
 
@@ -51,6 +52,8 @@ bool read_display(SceneReading& reading);
 bool read_camera(SceneReading& reading);
 bool read_include(SceneReading& reading);
 bool read_material(SceneReading& reading);
+// optics_statements.cpp
+bool read_background(SceneReading& reading);
 // mesh_statements.cpp
 bool read_object(SceneReading& reading);
 bool read_quad(SceneReading& reading);
@@ -58,8 +61,11 @@ bool read_tri(SceneReading& reading);
 bool read_grid(SceneReading& reading);
 bool read_obj(SceneReading& reading);
 bool read_sub(SceneReading& reading);
+bool read_plane(SceneReading& reading);
 // light_statements.cpp
 bool read_light(SceneReading& reading);
+/// Four different corners of a convex quad, in one plane as nearly as it matters.
+bool read_plane_quad(SceneReading& reading, Vec3* corners);
 
 /// A word that values follow, inside a statement; `kinds` and `required` are sets of bits, one a kind of statement.
 struct Key {

@@ -13,6 +13,12 @@ constexpr bool position_before(const LatticePoint& a, const LatticePoint& b) {
   return a.z < b.z;
 }
 
+/// All of them; the tree is of the polygons as they are in the end.
+bool place(const Scene& scene, Arena& arena, Placement& placement, PolygonTree& tree);
+
+/// PolygonTriangles::raise of every polygon, once the triangles are there (raise.cpp).
+void find_raises(const Scene& scene, const Placement& placement, const PolygonTree& tree, Geometry& geometry);
+
 bool make_sites(const Scene& scene, Arena& arena, Placement& placement);
 bool weld_sites(Arena& arena, Placement& placement);
 bool make_rings(const Scene& scene, Arena& arena, Placement& placement);

@@ -5,6 +5,7 @@
 // interior goes in steps of 2 along the polygon's dominant axis to the side where none of its own polygons stands. What
 // lies flat on a larger polygon (a picture on a wall) has no such side: it goes to the front of its own.
 // Passes over all vertices, in order, until nothing changes, at most 8: a move may bring a vertex near another polygon.
+// Scratch: 13 bytes a vertex.
 #include "visibility/mending.h"
 #include "visibility/surface.h"
 
@@ -13,6 +14,9 @@ namespace shodo {
 namespace {
 
 constexpr int kPasses = 8;
+/// Lattice steps that a vertex moves in all, in each coordinate: as many as one move takes at most. Beside a strip as
+/// thin as that, whose plane turns with every move, two vertices would chase each other.
+constexpr std::int64_t kMost = 8;
 
 /// The side of the plane on which the site has to be, or on the plane: +1, -1, or 0 if it may stay where it is.
 int wanted_side(const Placement& placement, const PolygonTree& tree, std::uint32_t polygon,
@@ -34,8 +38,13 @@ bool move_to_side(const SurfaceTriangle& surface, int wanted, LatticePoint& p) {
   return true;
 }
 
+bool far_from(const LatticePoint& p, const LatticePoint& q) {
+  const LatticeVector d = p - q;
+  return d.x > kMost || d.x < -kMost || d.y > kMost || d.y < -kMost || d.z > kMost || d.z < -kMost;
+}
+
 /// One site against all polygons near it; true if it moved.
-bool settle(const PolygonTree& tree, Placement& placement, std::uint32_t site) {
+bool settle(const PolygonTree& tree, Placement& placement, std::uint32_t site, const LatticePoint& start) {
   bool moved = false;
   const LatticePoint at = placement.sites[site];
   // A vertex where edges cross was found between two that are near, and rounded once more.
@@ -49,7 +58,10 @@ bool settle(const PolygonTree& tree, Placement& placement, std::uint32_t site) {
                  LatticePoint& p = placement.sites[site];
                  if (!lies_on(surface, p, near) || surface.side(p) == 0) return;
                  const int wanted = wanted_side(placement, tree, polygon, surface, site);
-                 if (wanted != 0 && move_to_side(surface, wanted, p)) moved = true;
+                 LatticePoint to = p;
+                 if (wanted == 0 || !move_to_side(surface, wanted, to) || far_from(to, start)) return;
+                 p = to;
+                 moved = true;
                });
              });
   return moved;
@@ -61,10 +73,13 @@ bool move_vertices(PolygonTree& tree, Arena& arena, Placement& placement) {
   ArenaScratch scratch(arena);
   std::span<std::uint8_t> has_moved;
   if (!arena.take("moved vertices", placement.sites.size(), has_moved)) return false;
+  std::span<LatticePoint> start;
+  if (!arena.take("vertices before moves", placement.sites.size(), start)) return false;
+  for (std::size_t site = 0; site < start.size(); ++site) start[site] = placement.sites[site];
   for (int pass = 0; pass < kPasses; ++pass) {
     bool changed = false;
     for (std::uint32_t site = 0; site < placement.sites.size(); ++site) {
-      if (placement.drawn_only(site) || !settle(tree, placement, site)) continue;
+      if (placement.drawn_only(site) || !settle(tree, placement, site, start[site])) continue;
       changed = true;
       if (has_moved[site] == 0 && site < placement.vertex_sites) ++placement.moved;
       has_moved[site] = 1;

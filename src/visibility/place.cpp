@@ -26,10 +26,14 @@ bool make_rings(const Scene& scene, Arena& arena, Placement& placement) {
 }
 
 bool place(const Scene& scene, Arena& arena, Placement& placement) {
+  PolygonTree tree;
+  return place(scene, arena, placement, tree);
+}
+
+bool place(const Scene& scene, Arena& arena, Placement& placement, PolygonTree& tree) {
   if (!make_sites(scene, arena, placement)) return false;
   if (!weld_sites(arena, placement)) return false;
   if (!make_rings(scene, arena, placement)) return false;
-  PolygonTree tree;
   if (!tree.build(placement, arena)) return false;
   if (!insert_vertices(tree, arena, placement)) return false;
   placement.file_sites = static_cast<std::uint32_t>(placement.sites.size());

@@ -2,7 +2,8 @@
 //
 // A point is rounded to the nearest odd point and moved by steps of 2 along the dominant axis of the polygon's normal
 // until it is in front of the triangle that lies there; one division finds how many. A point beside all triangles (on a
-// polygon's border, after rounding) takes the plane of the nearest of them.
+// polygon's border, after rounding) takes the plane of the nearest of them. Where another polygon touches, the point is
+// raised over what sticks out of its own first (raise.cpp).
 // Exact: being in front. Approximate: the place, by a few lattice steps.
 #include "visibility/geometry.h"
 #include "visibility/placement.h"
@@ -100,14 +101,34 @@ LatticePoint in_front(std::span<const Triangle> triangles, LatticePoint p) {
   return p;
 }
 
-/// An open light's polygon, which no triangle stands for.
-std::uint32_t open_light_triangles(const Geometry& geometry, const Light& light, Triangle (&triangles)[2]) {
+/// A face that another touches: over what that sticks out of it.
+LatticePoint raised(std::span<const Triangle> triangles, std::uint32_t raise, LatticePoint p) {
+  Vec3 normal;
+  for (const Triangle& t : triangles) {
+    normal = normal + Vec3{static_cast<double>(t.n.x), static_cast<double>(t.n.y), static_cast<double>(t.n.z)};
+  }
+  normal = normalised(normal);
+  const double half[3] = {0.5 * raise * normal.x, 0.5 * raise * normal.y, 0.5 * raise * normal.z};
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    move_along(k, 2 * static_cast<std::int32_t>(half[k] < 0 ? half[k] - 0.5 : half[k] + 0.5), p);
+  }
+  return p;
+}
+
+LatticePoint in_front(const Geometry& geometry, const PolygonTriangles& range, LatticePoint p) {
+  const std::span<const Triangle> triangles = geometry.triangles.subspan(range.first, range.count);
+  return in_front(triangles, range.raise == 0 ? p : raised(triangles, range.raise, p));
+}
+
+}  // namespace
+
+std::uint32_t lattice_quad(const Lattice& lattice, const Vec3* corners, Triangle (&triangles)[2]) {
   std::uint32_t count = 0;
   for (std::uint32_t half = 0; half < 2; ++half) {
     Triangle& triangle = triangles[count];
-    triangle.a = even_point(geometry.lattice, light.corners[0]);
-    triangle.b = even_point(geometry.lattice, light.corners[half + 1]);
-    triangle.c = even_point(geometry.lattice, light.corners[half + 2]);
+    triangle.a = even_point(lattice, corners[0]);
+    triangle.b = even_point(lattice, corners[half + 1]);
+    triangle.c = even_point(lattice, corners[half + 2]);
     triangle.n = cross(triangle.b - triangle.a, triangle.c - triangle.a);
     triangle.d = triangle.n.x * triangle.a.x + triangle.n.y * triangle.a.y + triangle.n.z * triangle.a.z;
     if (!(triangle.n == LatticeVector{})) ++count;
@@ -115,7 +136,11 @@ std::uint32_t open_light_triangles(const Geometry& geometry, const Light& light,
   return count;
 }
 
-}  // namespace
+FlatFront flat_front(std::span<const Triangle> triangles) { return flat_front_of(triangles); }
+
+LatticePoint sample_point(const Lattice& lattice, std::span<const Triangle> own, const Vec3& point) {
+  return in_front(own, odd_point(lattice, point));
+}
 
 FlatFront flat_front(const Geometry& geometry, std::uint32_t mesh, std::uint32_t cell) {
   const PolygonTriangles range = geometry.cells[geometry.first_cell[mesh] + cell];
@@ -126,7 +151,7 @@ FlatFront flat_front(const Scene& scene, const Geometry& geometry, std::uint32_t
   const PolygonTriangles range = geometry.light_triangles[light];
   if (range.count > 0) return flat_front_of(geometry.triangles.subspan(range.first, range.count));
   Triangle triangles[2];
-  const std::uint32_t count = open_light_triangles(geometry, scene.lights[light], triangles);
+  const std::uint32_t count = lattice_quad(geometry.lattice, scene.lights[light].corners, triangles);
   return flat_front_of(std::span<const Triangle>(triangles, count));
 }
 
@@ -134,15 +159,15 @@ LatticePoint sample_point(const Scene& scene, const Geometry& geometry, std::uin
                           const Vec3& point) {
   static_cast<void>(scene);
   const PolygonTriangles range = geometry.cells[geometry.first_cell[mesh] + cell];
-  return in_front(geometry.triangles.subspan(range.first, range.count), odd_point(geometry.lattice, point));
+  return in_front(geometry, range, odd_point(geometry.lattice, point));
 }
 
 LatticePoint light_sample_point(const Scene& scene, const Geometry& geometry, std::uint32_t light, const Vec3& point) {
   const LatticePoint p = odd_point(geometry.lattice, point);
   const PolygonTriangles range = geometry.light_triangles[light];
-  if (range.count > 0) return in_front(geometry.triangles.subspan(range.first, range.count), p);
+  if (range.count > 0) return in_front(geometry, range, p);
   Triangle triangles[2];
-  const std::uint32_t count = open_light_triangles(geometry, scene.lights[light], triangles);
+  const std::uint32_t count = lattice_quad(geometry.lattice, scene.lights[light].corners, triangles);
   return in_front(std::span<const Triangle>(triangles, count), p);
 }
 

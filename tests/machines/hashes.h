@@ -14,13 +14,14 @@ struct Hashes {
 };
 
 inline constexpr Hashes kHashes[] = {
-    {"box", 0xf05f133455233400, 0xa9a5b49974afe280},
+    {"box", 0x7d0370b599003cc3, 0xa9a5b49974afe280},
     {"sun", 0x9e54c6cd4147ac22, 0x6973181985d668a5},
-    {"shapes", 0xe172d80437caa710, 0xdc78574ecb08cedd},
+    {"shapes", 0xf7fbc8b10b47155f, 0xdc78574ecb08cedd},
     {"rules", 0x93531a6d034cebd3, 0x250d75e13c00b291},
-    {"rule2+", 0x72b8f90567c946d6, 0xdce93435537fe323},
+    {"rule2+", 0x9fe96d5b24690786, 0xdce93435537fe323},
     {"blocks", 0xc1ed55ed74e9dd36, 0x937ba125e9fcc7a4},
-    {"day", 0x5400ccb94ce11f23, 0x4b9d56911116618e},
+    {"planes", 0xdff624d80fb86efc, 0x6c4a78b886697190},
+    {"day", 0xae791216d5db4551, 0x4b9d56911116618e},
 };
 
 }  // namespace machines
