@@ -1,5 +1,5 @@
 // The library in overlays: one piece of memory for code holds in turn what each stage needs. What a stage leaves to the
-// next lies in the caller's memory, and nothing in it points into code or constants.
+// next lies in the caller's memory, where nothing that a later one reads points into code or constants.
 #include "machines/cortex-m3/overlays.h"
 
 #include "model.h"
