@@ -1,5 +1,6 @@
-# shodo: `make` builds build/shodo. Other targets: rooms, report, test, hard, stability, load, coverage,
-# check-same-bytes, machines, workstation, scaling, memory-cost, check-budgets, install, install-needs, clean.
+# shodo: `make` builds build/shodo. Other targets: rooms, pictures, report, test, hard, stability, load, coverage,
+# check-same-bytes, fuzz, soak, mutants, machines, workstation, scaling, memory-cost, check-budgets, install,
+# install-needs, clean.
 #
 # Settings, on the command line of make:
 #   CXX=clang++ OPT=-O0   another compiler or optimisation; what was built with other flags is built again
@@ -83,6 +84,25 @@ $(OUT)/%.png: data/%.scn $(BUILD)/shodo $(wildcard data/*)
 	@mkdir -p $(OUT)
 	$(BUILD)/shodo render $< -o $@ --stats $(OUT)/$*.json
 
+# Those of doc/measuring.md.
+PICTURE_SCENES = cornell white_box door stair
+pictures: $(PICTURE_SCENES:%=doc/pictures/%.png) doc/pictures/false-colour.png doc/pictures/isolux.png \
+  doc/pictures/patches.png doc/pictures/difference.png
+$(PICTURE_SCENES:%=doc/pictures/%.png): SCENE = $(basename $(notdir $@))
+doc/pictures/false-colour.png: SCENE = evening
+doc/pictures/false-colour.png: SHOWN = --false-colour auto --isolux auto
+doc/pictures/isolux.png: SCENE = door
+doc/pictures/isolux.png: SHOWN = --isolux auto
+doc/pictures/patches.png: SCENE = stair
+doc/pictures/patches.png: SHOWN = --show patches
+doc/pictures/%.png: $(BUILD)/shodo $(wildcard data/*)
+	$(BUILD)/shodo render data/$(SCENE).scn -o $@ --size 400x320 $(SHOWN)
+doc/pictures/difference.png: $(BUILD)/shodo data/door.scn
+	@mkdir -p $(OUT)
+	$(BUILD)/shodo render data/door.scn -o $(OUT)/door.ppm --size 400x320
+	$(BUILD)/shodo render data/door.scn -o $(OUT)/door-2.ppm --size 400x320 --rules 2
+	$(BUILD)/shodo difference $(OUT)/door.ppm $(OUT)/door-2.ppm -o $@
+
 test: $(BUILD)/shodo $(BUILD)/tests
 	@BUILD=$(BUILD) sh tests/run
 
@@ -113,6 +133,21 @@ coverage: $(BUILD)/shodo $(BUILD)/coverage/tests
 # Only the comparison of compilers and optimisation levels; part of `make test`.
 check-same-bytes:
 	@sh tests/same_bytes
+
+# Three fuzzers under sanitizers; FUZZ_SECONDS of each. Part of `make test` with a minute.
+FUZZ_SECONDS = 60
+fuzz:
+	@sh tests/fuzz/run $(FUZZ_SECONDS)
+
+# An hour of fuzzing, then 10^8 pairs of segment and triangle against the 128-bit twin and 10^7 segments at seams.
+soak: $(BUILD)/tests
+	@sh tests/fuzz/run 1800
+	SHODO_SOAK=50 $(BUILD)/tests --gtest_filter='TriangleTest.*:Leaks.*'
+
+# The core's code with one sign changed, and whether the tests see it; hours. MUTANTS: how many a group.
+MUTANTS = 20
+mutants:
+	@sh tests/mutants/run $(MUTANTS)
 
 # The program, the library with its headers, what pkg-config and man read (doc/library.md).
 VERSION = $(shell sed -n 's/.*kVersion = "shodo \(.*\)".*/\1/p' src/cli/arguments.h)
@@ -154,8 +189,8 @@ clean:
 	rm -rf $(BUILD) $(OUT)
 
 FORCE:
-.PHONY: all rooms report test hard stability load coverage check-same-bytes machines workstation scaling memory-cost check-budgets install \
-  install-needs clean FORCE
+.PHONY: all rooms pictures report test hard stability load coverage check-same-bytes fuzz soak mutants machines \
+  workstation scaling memory-cost check-budgets install install-needs clean FORCE
 .SECONDARY:
 
 -include $(COVERED_OBJECTS:.o=.d) $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(TEST_OBJECTS:.o=.d)

@@ -1,8 +1,12 @@
 #include "memory_plan.h"
 
+#include <iterator>
+
 #include "ambient/ambient_memory.h"
+#include "ambient/coloured_panes.h"
 #include "ambient/surfaces.h"
 #include "base/check.h"
+#include "light/mirror_light.h"
 #include "light/sources.h"
 #include "model.h"
 
@@ -22,52 +26,60 @@ std::uint64_t drawn_bytes(const Model& model) {
   return rounded_up(sizeof(DrawnTriangle) * std::uint64_t{model.geometry.drawn_count});
 }
 
+std::uint64_t mirror_bytes(const Model& model) {
+  return model.options.mirror_light ? MirrorLight::bytes(model.scene, model.geometry) : 0;
+}
+
 /// What load() leaves, and what it takes meanwhile.
 void plan_scene(const Model& model, MemoryPlan& plan) {
-  plan.add("the model", "its structure, and up to 7 for alignment", model.overhead, kAll);
-  plan.add("scene", "40 materials + 40 objects + 56 meshes + 24 vertices + 248 lights + 96 cameras + names",
-           model.after_scene, kAll);
-  plan.add("triangles that block", "72 triangles + 8 polygons + 4 meshes + 20 lights",
-           model.after_geometry - model.after_scene, kAll);
-  plan.add("triangles of the picture", "68 drawn triangles; spare: given up while there is light to find",
-           drawn_bytes(model), kLoad | kPicture);
+  plan.add(PlanPart::kModel, model.overhead, kAll);
+  plan.add(PlanPart::kScene, model.after_scene, kAll);
+  plan.add(PlanPart::kTriangles, model.after_geometry - model.after_scene, kAll);
+  plan.add(PlanPart::kDrawn, drawn_bytes(model), kLoad | kPicture);
   const std::uint64_t left = model.after_geometry + drawn_bytes(model) + model.overhead;
-  plan.add("while placing", "16 vertices + 24 polygons + 12 insertions + a tree; then 72 n, the patches",
-           model.loaded.stage_peak[0] - left, kLoad);
+  plan.add(PlanPart::kPlacing, model.loaded.stage_peak[0] - left, kLoad);
 }
 
 void plan_light(const Model& model, MemoryPlan& plan) {
   const Scene& scene = model.scene;
   const Options& options = model.options;
-  plan.add("flags", "2 (objects + lights)", options.flags == FlagMode::kOff ? 0 : FlagTables::bytes(scene), kLight);
-  plan.add("direct light of the patches", "(8 c + 8) n", direct_patch_bytes(scene), kLight);
-  plan.add("possible blockers", "32 facets + 24 boxes + 8 facets", Intersector::bytes(model.geometry, options.flags),
+  plan.add(PlanPart::kFlags, features::aims(options.flags) ? FlagTables::bytes(scene) : 0, kLight);
+  plan.add(PlanPart::kDirectLight, direct_patch_bytes(scene), kLight);
+  plan.add(PlanPart::kBlockers, Intersector::bytes(model.geometry, options.flags),
            kDirect | kAgain | (scene.patch_count > 0 ? kAmbient : 0));
-  plan.add("light sources", "4,096 + 112 lights + 168 faces that emit + 44 ends of segments", Sources::bytes(scene),
+  plan.add(PlanPart::kSources, Sources::bytes(scene),
            kDirect | kAgain);
+  if (const std::uint64_t mirrors = mirror_bytes(model); mirrors > 0) {
+    plan.add(PlanPart::kMirrors, mirrors, kDirect | kAgain);
+  }
   const std::uint64_t result = ambient_result_bytes(scene);
   const std::uint64_t surfaces = surfaces_bytes(scene, options, SurfacesKeep::kNothing);
   const std::uint64_t ambient = smallest_ambient_bytes(scene, model.geometry, options, SurfacesKeep::kNothing);
-  plan.add("ambient light of the patches", "8 c n", result, kAmbient | kAgain | kMap);
+  plan.add(PlanPart::kAmbientLight, result, kAmbient | kAgain | kMap);
   const std::uint64_t links = link_bytes(scene, model.geometry, options);
-  plan.add("surfaces", "12 a node + 32 blocks + 33 meshes (9 with blocks) + 3,716; their geometry is found again",
-           surfaces, kAmbient);
-  plan.add("which nodes are linked", "2 n a level of blocks; with blocks 20 a node + 4 blocks + 32 meshes + 12,288 + "
-           "17 facets", links, kAmbient);
-  plan.add("solution", "16 c + 8 a node (+ 2 with rules 1 and 2, 16 with 2+) + one row + the coarse correction; "
-           "rows: what is left", ambient - result - surfaces - links, kAmbient);
-  plan.add("direct light of the sub-patches", "(4 c + 1) s; spare: given up to the rows", direct_sub_patch_bytes(scene),
+  plan.add(PlanPart::kSurfaces, surfaces, kAmbient);
+  plan.add(PlanPart::kLinks, links, kAmbient);
+  plan.add(PlanPart::kSolution, ambient - result - surfaces - links, kAmbient);
+  if (const std::uint64_t coloured = coloured_panes_bytes(scene, model.geometry); coloured > 0) {
+    plan.add(PlanPart::kColouredPanes, coloured, kAmbient);
+  }
+  plan.add(PlanPart::kSubPatches, direct_sub_patch_bytes(scene),
            kAgain | kMap | kPicture);
+}
+
+/// Nothing for scenes without planes.
+void plan_planes(const Model& model, MemoryPlan& plan) {
+  if (model.scene.planes.empty()) return;
+  plan.add(PlanPart::kPlanes, plane_map_bytes(model.scene), kAgain | kMap | kPicture);
+  plan.add(PlanPart::kMeasuring, gather_bytes(model.scene), kAgain);
 }
 
 void plan_picture(const Model& model, MemoryPlan& plan) {
   const Scene& scene = model.scene;
   const std::uint64_t maps = rounded_up(4 * std::uint64_t{scene.sub_patch_count} * scene.channels);
-  plan.add("ambient maps", "4 c s", maps, kMap | kPicture);
-  plan.add("spreading over a mesh", "9 a patch + 8 a row of sub-patches, of the largest mesh",
-           map_bytes(scene, model.options) - maps, kMap);
-  plan.add("drawing, or placing again", "2 c s + 8193 + (4 c + 3) width + 4 rows + 4 drawn + 392 active triangles",
-           larger(model.geometry.placing_bytes, model.picture_scratch), kPicture);
+  plan.add(PlanPart::kMaps, maps, kMap | kPicture);
+  plan.add(PlanPart::kSpreading, map_bytes(scene, model.options) - maps, kMap);
+  plan.add(PlanPart::kDrawing, larger(model.geometry.placing_bytes, model.picture_scratch), kPicture);
 }
 
 }  // namespace
@@ -84,9 +96,41 @@ const char* plan_stage_name(PlanStage stage) {
   return "";
 }
 
-void MemoryPlan::add(const char* name, const char* formula, std::uint64_t bytes, unsigned stages) {
+PartText plan_part_text(PlanPart part) {
+  static constexpr PartText kTexts[] = {
+      {"the model", "its structure, and up to 7 for alignment"},
+      {"scene", "40 materials + 40 objects + 56 meshes + 24 vertices + 248 lights + 96 cameras + 136 planes + names"},
+      {"triangles that block", "72 triangles + 8 polygons + 4 meshes + 20 lights"},
+      {"triangles of the picture", "68 drawn triangles; spare: given up while there is light to find"},
+      {"while placing", "16 vertices + 24 polygons + 12 insertions + a tree; then 72 n, the patches"},
+      {"flags", "2 (objects + lights)"},
+      {"direct light of the patches", "(8 c + 8) n"},
+      {"possible blockers", "32 facets + 24 boxes + 8 facets"},
+      {"light sources", "4,096 + 112 lights + 168 faces that emit + 44 ends of segments"},
+      {"mirrors that send light on", "48 a triangle, with --mirror-light on"},
+      {"ambient light of the patches", "8 c n"},
+      {"surfaces", "12 a node + 32 blocks + 33 meshes (9 with blocks) + 3,716; their geometry is found again"},
+      {"which nodes are linked",
+       "2 n a level of blocks; with blocks 20 a node + 4 blocks + "
+       "32 meshes + 39 facets (24 of them in steps of 64)"},
+      {"solution",
+       "16 c + 8 a node (+ 2 with rules 1 and 2, 16 with 2+) + one "
+       "row + the coarse correction; rows: what is left"},
+      {"ambient light of one channel", "8 c n, where panes are coloured"},
+      {"direct light of the sub-patches", "(4 c + 1) s; spare: given up to the rows"},
+      {"light of measuring planes", "(8 c + 1) sub-patches of planes"},
+      {"while measuring", "(44 + 8 c) sub-patches of a plane's patch"},
+      {"ambient maps", "4 c s"},
+      {"spreading over a mesh", "9 a patch + 8 a row of sub-patches, of the largest mesh"},
+      {"drawing, or placing again", "2 c s + 8193 + (4 c + 3) width + 4 rows + 10 drawn + 208 active triangles"},
+  };
+  static_assert(std::size(kTexts) == static_cast<std::size_t>(PlanPart::kDrawing) + 1);
+  return kTexts[static_cast<std::size_t>(part)];
+}
+
+void MemoryPlan::add(PlanPart which, std::uint64_t bytes, unsigned stages) {
   SHODO_CHECK(parts < kMostParts);
-  part[parts++] = {name, formula, bytes, static_cast<std::uint8_t>(stages)};
+  part[parts++] = {which, bytes, static_cast<std::uint8_t>(stages)};
   for (std::size_t k = 0; k < kPlanStages; ++k) stage[k] += part[parts - 1].in(k) ? bytes : 0;
 }
 
@@ -104,6 +148,7 @@ MemoryPlan plan_memory(const Model& model, bool picture) {
   MemoryPlan plan;
   plan_scene(model, plan);
   plan_light(model, plan);
+  plan_planes(model, plan);
   plan_picture(model, plan);
   if (!picture) plan.stage[static_cast<std::size_t>(PlanStage::kPicture)] = 0;
   return plan;
@@ -112,15 +157,17 @@ MemoryPlan plan_memory(const Model& model, bool picture) {
 bool keeps_geometry(const Model& model) {
   const Scene& scene = model.scene;
   const Options& options = model.options;
-  const std::uint64_t flags = options.flags == FlagMode::kOff ? 0 : FlagTables::bytes(scene);
+  const std::uint64_t flags = features::aims(options.flags) ? FlagTables::bytes(scene) : 0;
   const std::uint64_t blockers = Intersector::bytes(model.geometry, options.flags);
   const std::uint64_t patches = model.after_patches + flags + direct_patch_bytes(scene);
-  const std::uint64_t solved = patches + ambient_result_bytes(scene) + direct_sub_patch_bytes(scene);
+  const std::uint64_t solved = patches + ambient_result_bytes(scene) + direct_sub_patch_bytes(scene) +
+                               plane_map_bytes(scene);
   const std::uint64_t ambient = smallest_ambient_bytes(scene, model.geometry, options, SurfacesKeep::kGeometry);
   const std::uint64_t rows = expected_row_bytes(scene, options);
   // Geometry costs less to find again than the direct light that would have to make room for it.
-  std::uint64_t most = patches + blockers + ambient + rows + (rows > 0 ? direct_sub_patch_bytes(scene) : 0);
-  most = larger(most, solved + blockers + Sources::bytes(scene));
+  const std::uint64_t coloured = coloured_panes_bytes(scene, model.geometry);
+  std::uint64_t most = patches + blockers + ambient + coloured + rows + (rows > 0 ? direct_sub_patch_bytes(scene) : 0);
+  most = larger(most, solved + blockers + Sources::bytes(scene) + gather_bytes(scene) + mirror_bytes(model));
   most = larger(most, solved + map_bytes(scene, options));
   return most <= model.arena.capacity();
 }

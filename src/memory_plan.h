@@ -17,9 +17,20 @@ inline constexpr std::size_t kPlanStages = 6;
 
 const char* plan_stage_name(PlanStage stage);
 
+enum class PlanPart : std::uint8_t {
+  kModel, kScene, kTriangles, kDrawn, kPlacing, kFlags, kDirectLight, kBlockers, kSources, kMirrors, kAmbientLight, kSurfaces,
+  kLinks, kSolution, kColouredPanes, kSubPatches, kPlanes, kMeasuring, kMaps, kSpreading, kDrawing
+};
+
+/// For whoever shows a plan; not linked where nobody does.
+struct PartText {
+  const char* name;
+  const char* formula;  // bytes; n patches, s sub-patches, c channels
+};
+PartText plan_part_text(PlanPart part);
+
 struct PlannedPart {
-  const char* name = "";
-  const char* formula = "";  // bytes; n patches, s sub-patches, c channels
+  PlanPart part = PlanPart::kModel;
   std::uint64_t bytes = 0;
   std::uint8_t stages = 0;   // bit k: held in PlanStage k
 
@@ -33,7 +44,7 @@ struct MemoryPlan {
   std::size_t parts = 0;
   std::uint64_t stage[kPlanStages] = {};  // bytes in use at most; 0 for a picture that isn't asked for
 
-  void add(const char* name, const char* formula, std::uint64_t bytes, unsigned stages);
+  void add(PlanPart which, std::uint64_t bytes, unsigned stages);
   std::uint64_t peak() const;
 };
 

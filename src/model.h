@@ -10,6 +10,8 @@
 #include "base/arena.h"
 #include "light/direct.h"
 #include "map/illuminance_map.h"
+#include "map/plane_maps.h"
+#include "picture/seen_points.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
 #include "shodo/shodo.h"
@@ -26,11 +28,13 @@ struct Model {
   Statistics statistics;
   Scene scene;
   Geometry geometry;
+  Intersector intersector{geometry};
   std::span<Patch> patches;        // like all that is by patch: until the picture wants the memory
   FlagTables flags;                // of paper 3.1, and what was found; empty with flags off
   DirectLight direct;
   AmbientLight ambient;
   IlluminanceMaps maps;
+  PlaneMaps planes;
   std::uint64_t memory_bytes = 0;  // what the caller gave
   std::uint64_t overhead = 0;      // the part of it before the arena: this structure
   Arena::Mark after_scene = 0;
@@ -42,5 +46,14 @@ struct Model {
   Statistics loaded;               // and what was counted until then
   bool solved = false;
 };
+
+/// What every sample of the picture of a solved model sees. Errors: as draw().
+Status see(Model& model, const Progress& progress, const SeenSink& sink);
+/// The steps of solve(), in this order. What one leaves to the next lies in the model, so that a machine with little
+/// memory for code can hold one at a time (doc/determinism.md). Errors: those of solve().
+Status start_solving(Model& model);
+Status solve_directly(Model& model, const Progress& progress);
+Status solve_ambiently(Model& model, const Progress& progress);
+Status solve_maps(Model& model, const Progress& progress);
 
 }  // namespace shodo

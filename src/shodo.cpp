@@ -7,6 +7,7 @@
 
 #include <new>
 
+#include "ambient/coloured_panes.h"
 #include "base/self_check.h"
 #include "base/text.h"
 #include "memory_plan.h"
@@ -28,7 +29,7 @@ Status too_small(std::uint64_t needed, std::uint64_t given) {
   Status status;
   status.code = StatusCode::kMemory;
   status.bytes_needed = needed;
-  TextBuilder text(status.message, sizeof status.message);
+  MessageText text(status.message, sizeof status.message);
   text.add("the memory budget is too small: expected at least ").add(needed).add(" bytes, found ").add(given);
   return status;
 }
@@ -36,14 +37,30 @@ Status too_small(std::uint64_t needed, std::uint64_t given) {
 Status wrong_use(std::string_view what) {
   Status status;
   status.code = StatusCode::kUsage;
-  TextBuilder(status.message, sizeof status.message).add(what);
+  MessageText(status.message, sizeof status.message).add(what);
   return status;
 }
 
 Status interrupted() {
   Status status;
   status.code = StatusCode::kInterrupted;
-  TextBuilder(status.message, sizeof status.message).add("interrupted");
+  MessageText(status.message, sizeof status.message).add("interrupted");
+  return status;
+}
+
+/// What the options ask of a library that is built without it (base/features.h); null if nothing.
+const char* part_left_out(const Options& options) {
+  const Rules& rules = options.rules;
+  if (!features::kBlocks && rules.blocks) return "blocks";
+  if (!features::kRules && (rules.rule1 || rules.rule2 || rules.rule2_repeated || rules.rule3)) return "rules";
+  if (!features::kAims && options.flags == FlagMode::kScene) return "flags that a scene gives";
+  return nullptr;
+}
+
+Status left_out(const char* part) {
+  Status status;
+  status.code = StatusCode::kUsage;
+  TextBuilder(status.message, sizeof status.message).add("this library is built without ").add(part);
   return status;
 }
 
@@ -51,6 +68,8 @@ void count_scene(Model& model) {
   Statistics& statistics = model.statistics;
   statistics.objects = static_cast<std::uint32_t>(model.scene.objects.size());
   statistics.meshes = static_cast<std::uint32_t>(model.scene.meshes.size());
+  statistics.planes = static_cast<std::uint32_t>(model.scene.planes.size());
+  statistics.plane_sub_patches = model.scene.plane_sub_patch_count;
   statistics.channels = model.scene.channels;
   statistics.lattice_step = model.geometry.lattice.step();
   statistics.vertices_inserted = model.geometry.inserted;
@@ -88,7 +107,7 @@ void end_stage(Model& model, MemoryStage stage) {
 }
 
 /// The sub-patches' direct light stands in spare blocks; if the rows took them, all is lit once more.
-Status keep_sub_patches(Model& model, Intersector& intersector, const Progress& progress) {
+Status keep_sub_patches(Model& model, const Progress& progress) {
   Arena& arena = model.arena;
   DirectLight& direct = model.direct;
   const bool held = !direct.hidden.empty() && arena.holds(direct.hidden) && arena.holds(direct.sub_patch_lx);
@@ -97,7 +116,7 @@ Status keep_sub_patches(Model& model, Intersector& intersector, const Progress& 
   arena.release_spares(model.loaded_spares);
   arena.pin_spares(0);
   const Statistics counted = model.statistics;
-  const Status status = light_directly(model.scene, model.geometry, model.patches, model.options, intersector,
+  const Status status = light_directly(model.scene, model.geometry, model.patches, model.options, model.intersector,
                                        progress, arena, direct, model.statistics, DirectKeeps::kSubPatches);
   model.statistics = counted;
   model.statistics.lit_again = 1;
@@ -123,29 +142,6 @@ Status take_patches(Model& model) {
   return status;
 }
 
-Status light_and_map(Model& model, const Progress& progress) {
-  Intersector intersector(model.geometry, model.scene, model.options.flags);
-  if (!intersector.take_flags(model.arena)) return model.arena.refused();
-  Status status = light_directly(model.scene, model.geometry, model.patches, model.options, intersector, progress,
-                                 model.arena, model.direct, model.statistics);
-  end_stage(model, MemoryStage::kDirect);
-  if (!status.done()) return status;
-  status = light_ambiently(model.scene, model.geometry, model.patches, model.direct, intersector, model.options,
-                           progress, model.arena, model.ambient, model.statistics);
-  end_stage(model, MemoryStage::kAmbient);
-  if (!status.done()) return status;
-  model.before_maps = model.arena.mark();
-  status = keep_sub_patches(model, intersector, progress);
-  end_stage(model, MemoryStage::kDirect);
-  if (!status.done()) return status;
-  model.flags = intersector.flags();
-  if (!progress.go_on(Stage::kMap, 0, 1)) return interrupted();
-  status = map_illuminance(model.scene, model.patches, model.direct, model.ambient, model.options, model.arena,
-                           model.maps);
-  end_stage(model, MemoryStage::kMap);
-  return status;
-}
-
 template <class T>
 void move_down(std::span<T>& block, std::size_t bytes) {
   // A block of the arena: T stands on a multiple of its size from its start.
@@ -157,6 +153,9 @@ void give_up_patches(Model& model) {
   const bool with_direct = !model.arena.holds(model.direct.sub_patch_lx);
   const std::size_t by = model.arena.lower(model.before_maps, model.after_geometry);
   model.before_maps = model.after_geometry;
+  move_down(model.planes.direct_lx, by);
+  move_down(model.planes.ambient_lx, by);
+  move_down(model.planes.hidden, by);
   move_down(model.maps.ambient_lx, by);
   if (with_direct) {
     move_down(model.direct.sub_patch_lx, by);
@@ -171,8 +170,9 @@ void give_up_patches(Model& model) {
   model.ambient = {};
 }
 
-/// The drawn triangles, if the light took their memory, and the picture.
-Status place_and_draw(Model& model, const Progress& progress, const LineSink& sink) {
+/// The drawn triangles, if the light took their memory, and then what is made of them: draw(arena).
+template <class Draw>
+Status place_and_draw(Model& model, Draw draw) {
   Geometry& geometry = model.geometry;
   Arena& arena = model.arena;
   const bool held = arena.holds(geometry.drawn) && geometry.drawn.size() == geometry.drawn_count;
@@ -184,9 +184,22 @@ Status place_and_draw(Model& model, const Progress& progress, const LineSink& si
     if (!place_drawn(model.scene, arena, geometry)) return arena.refused();
     model.statistics.placed_again = 1;
   }
-  const Status status = draw_picture(model.scene, geometry, model.maps, model.options, progress, arena, sink);
+  const Status status = draw(arena);
   if (!held) geometry.drawn = {};
   return status;
+}
+
+template <class Draw>
+Status draw_solved(Model& model, const Progress& progress, Draw draw) {
+  if (const Status fit = self_check(); !fit.done()) return fit;
+  if (!model.solved) return wrong_use("expected a solved model, found one that is only loaded");
+  const std::uint64_t needed = smallest_memory(model);
+  if (needed > model.memory_bytes) return too_small(needed, model.memory_bytes);
+  if (!progress.go_on(Stage::kPicture, 0, 1)) return interrupted();
+  model.arena.start_stage();
+  const Status status = place_and_draw(model, draw);
+  end_stage(model, MemoryStage::kPicture);
+  return with_model(status, model.overhead);
 }
 
 }  // namespace
@@ -196,7 +209,7 @@ Status self_check() {
   const char* const fault = arithmetic_fault();
   if (fault == nullptr) return status;
   status.code = StatusCode::kFile;
-  TextBuilder text(status.message, sizeof status.message);
+  MessageText text(status.message, sizeof status.message);
   text.add("this machine's arithmetic would change pixels: expected ").add(fault).add(", found otherwise");
   return status;
 }
@@ -204,6 +217,7 @@ Status self_check() {
 Status load(std::string_view name, std::string_view text, const Reader& reader, const Options& options, void* memory,
             std::size_t bytes, Model*& model) {
   model = nullptr;
+  if (const char* part = part_left_out(options); part != nullptr) return left_out(part);
   if (const Status fit = self_check(); !fit.done()) return fit;
   const std::size_t skew = reinterpret_cast<std::uintptr_t>(memory) % alignof(Model);
   const std::size_t skip = skew == 0 ? 0 : alignof(Model) - skew;
@@ -227,7 +241,7 @@ Status load(std::string_view name, std::string_view text, const Reader& reader, 
   return status;
 }
 
-Status solve(Model& model, const Progress& progress) {
+Status start_solving(Model& model) {
   if (const Status fit = self_check(); !fit.done()) return fit;
   model.statistics = model.loaded;
   model.solved = false;
@@ -240,21 +254,63 @@ Status solve(Model& model, const Progress& progress) {
   Status status = take_patches(model);
   if (!status.done()) return with_model(status, model.overhead);
   model.arena.start_stage();
-  status = light_and_map(model, progress);
+  model.intersector = Intersector(model.geometry, model.scene, model.options.flags);
+  if (!model.intersector.take_flags(model.arena)) status = model.arena.refused();
+  return with_model(status, model.overhead);
+}
+
+Status solve_directly(Model& model, const Progress& progress) {
+  const Status status = light_directly(model.scene, model.geometry, model.patches, model.options, model.intersector,
+                                       progress, model.arena, model.direct, model.statistics);
+  end_stage(model, MemoryStage::kDirect);
+  return with_model(status, model.overhead);
+}
+
+Status solve_ambiently(Model& model, const Progress& progress) {
+  const Status status = light_ambiently_through_panes(model.scene, model.geometry, model.patches, model.direct,
+                                                      model.intersector, model.options, progress, model.arena,
+                                                      model.ambient, model.statistics);
+  end_stage(model, MemoryStage::kAmbient);
+  return with_model(status, model.overhead);
+}
+
+Status solve_maps(Model& model, const Progress& progress) {
+  model.before_maps = model.arena.mark();
+  Status status;
+  if (!model.scene.planes.empty()) {
+    status = measure_planes({model.scene, model.geometry, model.patches, model.direct, model.ambient}, model.options,
+                            model.intersector, progress, model.arena, model.planes, model.statistics);
+    if (!status.done()) return with_model(status, model.overhead);
+  }
+  status = keep_sub_patches(model, progress);
+  end_stage(model, MemoryStage::kDirect);
+  if (!status.done()) return with_model(status, model.overhead);
+  model.flags = model.intersector.flags();
+  if (!progress.go_on(Stage::kMap, 0, 1)) return interrupted();
+  status = map_illuminance(model.scene, model.patches, model.direct, model.ambient, model.options, model.arena,
+                           model.maps);
+  end_stage(model, MemoryStage::kMap);
   model.solved = status.done();
   return with_model(status, model.overhead);
 }
 
+Status solve(Model& model, const Progress& progress) {
+  Status status = start_solving(model);
+  if (status.done()) status = solve_directly(model, progress);
+  if (status.done()) status = solve_ambiently(model, progress);
+  return status.done() ? solve_maps(model, progress) : status;
+}
+
 Status draw(Model& model, const Progress& progress, const LineSink& sink) {
-  if (const Status fit = self_check(); !fit.done()) return fit;
-  if (!model.solved) return wrong_use("expected a solved model, found one that is only loaded");
-  const std::uint64_t needed = smallest_memory(model);
-  if (needed > model.memory_bytes) return too_small(needed, model.memory_bytes);
-  if (!progress.go_on(Stage::kPicture, 0, 1)) return interrupted();
-  model.arena.start_stage();
-  const Status status = place_and_draw(model, progress, sink);
-  end_stage(model, MemoryStage::kPicture);
-  return with_model(status, model.overhead);
+  return draw_solved(model, progress, [&](Arena& arena) {
+    return draw_picture(model.scene, model.geometry, model.maps, model.options, progress, arena, sink);
+  });
+}
+
+Status see(Model& model, const Progress& progress, const SeenSink& sink) {
+  return draw_solved(model, progress, [&](Arena& arena) {
+    return see_points(model.scene, model.geometry, model.options, progress, arena, sink);
+  });
 }
 
 const Statistics& statistics(const Model& model) { return model.statistics; }

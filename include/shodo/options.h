@@ -33,7 +33,8 @@ struct Options {
   bool scale_rows = true;
   bool interpolate = true;
   std::uint32_t row_value_bits = 16;   // 16 or 64
-  std::uint32_t width = 1280;          // pixels
+  bool mirror_light = false;           // mirrors send the light of sources on, once
+  std::uint32_t width = 1280;          // pixels, 1 .. 16384
   std::uint32_t height = 1024;
   std::uint32_t antialias = 4;         // samples a pixel: 1, 4 or 16
   std::string_view camera;             // empty: the first

@@ -14,6 +14,8 @@ struct Statistics {
   std::uint32_t meshes = 0;
   std::uint32_t patches = 0;              // receivers that were not dropped
   std::uint32_t sub_patches = 0;
+  std::uint32_t planes = 0;               // that measure, and their sub-patches: in no other count
+  std::uint32_t plane_sub_patches = 0;
   std::uint32_t channels = 0;             // 1 if every material and light is grey, else 3
   double lattice_step = 0;                // scene units
   std::uint32_t vertices_inserted = 0;    // T-junctions
@@ -27,6 +29,8 @@ struct Statistics {
   std::uint64_t segments_ambient = 0;
   std::uint64_t tests_direct = 0;         // one segment against one triangle, early exits included
   std::uint64_t tests_ambient = 0;
+  std::uint64_t segments_planes = 0;      // on measuring planes
+  std::uint64_t tests_planes = 0;
   std::uint64_t form_factors_computed = 0;  // geometric factors, a pair counted once
   std::uint64_t nonzeros = 0;             // of the matrix F, both of a pair counted
   std::uint64_t row_bytes = 0;

@@ -22,12 +22,14 @@ enum class StatusCode : std::uint8_t {
 
 /// Fixed size, so that an error needs no memory to be told.
 struct [[nodiscard]] Status {
-  StatusCode code = StatusCode::kDone;
-  std::uint32_t line = 0;          // 1-based; 0: no position
-  std::uint32_t column = 0;        // 1-based, in bytes
-  std::uint64_t bytes_needed = 0;  // kMemory: the arena's smallest size for the call that failed, 0 if not known
-  char file[128] = {};             // name as the scene or the caller gave it; the end of it if it is longer
-  char message[256] = {};          // "expected ..., found ..."
+  Status();  // done; not inline, since it is made in a hundred places
+
+  StatusCode code;
+  std::uint32_t line;          // 1-based; 0: no position
+  std::uint32_t column;        // 1-based, in bytes
+  std::uint64_t bytes_needed;  // kMemory: the arena's smallest size for the call that failed, 0 if not known
+  char file[128];              // name as the scene or the caller gave it; the end of it if it is longer
+  char message[256];           // "expected ..., found ..."
 
   bool done() const { return code == StatusCode::kDone; }
 };

@@ -13,17 +13,20 @@ namespace shodo {
 
 namespace {
 
+/// Rule 2+.
+bool repeats(const Rules& rules) { return features::kRules && rules.rule2_repeated; }
+
 /// The first pass notes two errors a node. The fluxes sent aren't there yet: they have room for as many as there are
 /// channels. In a grey scene the second stand where the answer will be, but that is by patch, too few with blocks.
 /// With rule 2+ errors must stay while rows are solved.
 std::size_t own_errors(const Scene& scene, const Rules& rules) {
   const std::size_t nodes = node_count(scene, rules);
-  if (rules.rule2_repeated) return 2 * nodes;
+  if (repeats(rules)) return 2 * nodes;
   return scene.channels == 1 && nodes > scene.patch_count ? nodes : 0;
 }
 
 FirstPassScratch first_pass_scratch(const Solver& solver, const Rules& rules, std::size_t nodes) {
-  if (rules.rule2_repeated) return {solver.row_errors.first(nodes), solver.row_errors.subspan(nodes), solver.gathered};
+  if (repeats(rules)) return {solver.row_errors.first(nodes), solver.row_errors.subspan(nodes), solver.gathered};
   const std::span<double> second = solver.sent.size() >= 2 * nodes ? solver.sent.subspan(nodes, nodes)
                                    : solver.row_errors.empty()     ? solver.ambient_lx
                                                                    : solver.row_errors;
@@ -61,7 +64,7 @@ Status solve_in_rounds(const DirectLight& direct, Intersector& intersector, cons
     }
     status = solve_rows(direct, intersector, progress, matrix, solver, statistics);
     if (!status.done()) return status;
-  } while (matrix.options->rules.rule2_repeated && matrix.sparsity.restore(matrix.surfaces, direct, solver.ambient_lx));
+  } while (repeats(matrix.options->rules) && matrix.sparsity.restore(matrix.surfaces, direct, solver.ambient_lx));
   matrix.sparsity.count(statistics);
   statistics.rule2_bound_lx = matrix.sparsity.loss_bound(matrix.surfaces, direct, solver.ambient_lx);
   return {};
@@ -88,7 +91,7 @@ Status light_ambiently(const Scene& scene, const Geometry& geometry, std::span<c
   if (!status.done()) return status;
   const IntersectorScratch seeking(intersector);
   if (!intersector.start(arena)) return arena.refused();
-  if (options.rules.blocks) matrix.tools.sight.start(intersector);
+  if (features::blocks(options.rules)) matrix.tools.sight.start(intersector);
   return solve_in_rounds(direct, intersector, progress, matrix, solver, statistics);
 }
 
@@ -110,7 +113,7 @@ std::uint64_t link_bytes(const Scene& scene, const Geometry& geometry, const Opt
 
 std::uint64_t expected_row_bytes(const Scene& scene, const Options& options) {
   constexpr std::uint64_t kBytesANode = 96;
-  return options.rules.blocks ? kBytesANode * node_count(scene, options.rules) : 0;
+  return features::blocks(options.rules) ? kBytesANode * node_count(scene, options.rules) : 0;
 }
 
 }  // namespace shodo

@@ -41,16 +41,24 @@ LinkSeries odd_series(const Surfaces& s, const RowSide& side, std::uint32_t j) {
   return link;
 }
 
+/// The visible fraction where `free` of `all` segments are: (f + 1/2) / (n + 1) after Jeffreys, since that all agree
+/// doesn't make them certain.
+VisibleFraction fraction_of(std::uint32_t free, std::uint32_t all) {
+  const double n = all, f = free;
+  if (!(n > 0)) return {0, 0};
+  return {f / n, (f + 0.5) * (n - f + 0.5) / ((n + 1) * (n + 1) * (n + 2))};
+}
+
 }  // namespace
 
 std::uint64_t BlockTools::bytes(const Scene& scene, const Geometry& geometry, const Options& options) {
-  if (!options.rules.blocks) return 0;
+  if (!features::blocks(options.rules)) return 0;
   return LinkWorth::bytes(scene, options.rules) + Places::bytes(scene, options.rules) +
          Sight::bytes(geometry, options);
 }
 
 Status BlockTools::take(Arena& arena, const Surfaces& surfaces, const DirectLight& direct, const Options& options) {
-  if (!options.rules.blocks) return {};
+  if (!features::blocks(options.rules)) return {};
   Status status = worth.take(arena, surfaces, direct, options.rules);
   if (status.done()) status = places.take(arena, surfaces, options.rules);
   if (status.done()) status = sight.take(arena, *surfaces.geometry, options);
@@ -64,35 +72,49 @@ void BlockJudge::start(const RowSide& side) {
   while (node_ >= surfaces_.mesh_begin[place_ + 1]) ++place_;
   own_place_ = place_;
   placed_ = tools_.places.side(node_, place_);
-  tools_.sight.open(node_, surfaces_.end(node_), tools_.places.box(surfaces_, node_, place_, true));
+  const std::uint32_t root = surfaces_.mesh_begin[place_];
+  own_block_ = surfaces_.is_block(node_);
+  top_ = node_ == root || !surfaces_.is_block(root);
+  asked_ = kNone;
+  own_sent_ = tools_.worth.sent(node_);
+  own_uneven_ = tools_.worth.uneven(node_);
+  link_ = {surfaces_.scene->meshes[surfaces_.mesh_at[place_]].object, kNone, LightSet::kAmbient};
+  own_boxes_[0] = tools_.places.box(surfaces_, node_, place_, false);
+  own_boxes_[1] = tools_.places.box(surfaces_, node_, place_, true);
 }
 
 Step BlockJudge::judge(const RowSide& side, std::uint32_t j) {
   if (side.position != node_) start(side);
   while (j >= surfaces_.mesh_begin[place_ + 1]) ++place_;
-  const Link link{surfaces_.mesh(node_).object, surfaces_.mesh(j).object, LightSet::kAmbient};
-  tools_.sight.turn_to(j, link, intersector_);
-  const Step step = decide(side, j);
-  if (step == Step::kSplitFirst || step == Step::kSplitSecond) {
-    const LatticeBox box = tools_.places.box(surfaces_, j, place_, true);
-    tools_.sight.split(j, surfaces_.end(j), box, step == Step::kSplitFirst);
-  }
-  return step;
+  link_.to = surfaces_.scene->meshes[surfaces_.mesh_at[place_]].object;
+  tools_.sight.turn_to(link_, intersector_);
+  return decide(side, j);
 }
 
-LinkSeries BlockJudge::series_of(const RowSide& side, std::uint32_t j) const {
-  const LinkSeries series = tools_.places.series(placed_, j, place_);
-  return series.kind == LinkKind::kOdd ? odd_series(surfaces_, side, j) : series;
+/// Of the mesh at work, where integers didn't tell.
+bool BlockJudge::out_of_sight(const RowSide& side) {
+  if (!top_ || place_ == own_place_) return false;
+  if (asked_ != place_) away_ = walk_.out_of_sight(side, place_);
+  asked_ = place_;
+  return away_;
+}
+
+LinkSeries BlockJudge::series_of(const RowSide& side, std::uint32_t j) {
+  LinkSeries series = tools_.places.series(placed_, j, place_);
+  if (series.kind != LinkKind::kOdd) return series;
+  if (!out_of_sight(side)) return odd_series(surfaces_, side, j);
+  series.kind = LinkKind::kAway;
+  return series;
 }
 
 /// Whether a pair that has a series must be split for its kernel; which end then.
 bool BlockJudge::varies_too_much(Pair& pair) const {
   const LinkWorth& worth = tools_.worth;
   const LinkSeries& series = pair.series;
-  const double over_i = series.vary_i * (worth.sent(pair.j) + worth.uneven(node_));
-  const double over_j = series.vary_j * (worth.sent(node_) + worth.uneven(pair.j));
+  const double over_i = series.vary_i * (worth.sent(pair.j) + own_uneven_);
+  const double over_j = series.vary_j * (own_sent_ + worth.uneven(pair.j));
   if (series.value * series.value * (over_i + over_j) <= worth.allowed()) return false;
-  if (surfaces_.is_block(node_) && surfaces_.is_block(pair.j) && over_i != over_j) {
+  if (own_block_ && surfaces_.is_block(pair.j) && over_i != over_j) {
     pair.split = over_i > over_j ? Step::kSplitFirst : Step::kSplitSecond;
   }
   return true;
@@ -106,12 +128,14 @@ Step BlockJudge::decide(const RowSide& side, std::uint32_t j) {
   pair.series = series_of(side, j);
   const LinkSeries& series = pair.series;
   if (series.kind == LinkKind::kAway) return Step::kNothing;
-  const bool i_block = s.is_block(node_), j_block = s.is_block(j), has_series = series.kind == LinkKind::kSeries;
+  const bool i_block = own_block_, j_block = s.is_block(j), has_series = series.kind == LinkKind::kSeries;
   pair.patches = !i_block && !j_block;
   const bool first = i_block && (!j_block || side.patch->longest_side >= s.patch(j).longest_side);
   pair.split = first ? Step::kSplitFirst : Step::kSplitSecond;
   const double v = has_series ? series.value + series.error : series.most;
-  const double power = worth.sent(node_) + worth.sent(j) + worth.uneven(node_) + worth.uneven(j);
+  double power = own_sent_ + worth.sent(j);
+  if (i_block) power += own_uneven_;
+  if (j_block) power += worth.uneven(j);
   pair.whole = v * v * power;
   pair.slight = pair.whole <= worth.allowed();
   if (!has_series) {
@@ -125,7 +149,7 @@ Step BlockJudge::decide(const RowSide& side, std::uint32_t j) {
   }
   // However dark it is: rows are to sum to 1.
   pair.near = pair.near || (has_series ? series.error : kDiscError * series.value) > kMostRough;
-  return measure(side, pair) ? look(side, pair) : Step::kNothing;
+  return measure(side, pair) ? look(pair) : Step::kNothing;
 }
 
 /// The exchange without shadows; false: there is none.
@@ -148,77 +172,123 @@ bool BlockJudge::measure(const RowSide& side, const Pair& pair) {
 }
 
 struct BlockJudge::Shots {
+  Shots(const LatticePoint* i, const LatticePoint* j) : at_i(i), at_j(j) {}
+
   const LatticePoint* at_i;
   const LatticePoint* at_j;
-  Link link;
   bool front_i[4], front_j[4];  // seen from the other's front
   std::uint32_t free = 0, all = 0;
+  bool panes = false;  // may be between
+  double passed = 0;   // with panes: of the free ones, what they let through
 
   bool mixed() const { return free > 0 && free < all; }
+  bool faces(std::uint32_t k, std::uint32_t l) const { return front_i[k] && front_j[l]; }
 };
 
-BlockJudge::Shots BlockJudge::shots_of(const RowSide& side, const Pair& pair) const {
+/// Whether a sample of a node is in front of another node, exactly where integers don't tell.
+bool BlockJudge::in_front(std::uint32_t node, std::uint32_t sample, std::uint32_t other, std::uint32_t place) const {
   const Surfaces& s = surfaces_;
-  const std::uint32_t points = s.cached_points, j = pair.j;
-  Shots shots{s.samples(node_), s.samples(j),
-              {s.mesh(node_).object, s.mesh(j).object, LightSet::kAmbient}, {}, {}};
-  const std::span<const SamplePoint> set_i = sample_points(s.cached_set, s.triangular(node_));
-  const std::span<const SamplePoint> set_j = sample_points(s.cached_set, s.triangular(j));
-  for (std::uint32_t k = 0; k < points; ++k) {
-    shots.front_i[k] = shots.front_j[k] = true;
-    if (!found_.pair.crossing) continue;
-    const Patch& other = s.patch(j);
-    shots.front_i[k] = dot(other.normal, sample_place(s, node_, set_i[k]) - other.centre) > s.flat;
-    shots.front_j[k] = dot(side.patch->normal, sample_place(s, j, set_j[k]) - side.patch->centre) > s.flat;
+  const int sign = tools_.places.sign_over(other, place, s.samples(node)[sample]);
+  if (sign != 0) return sign > 0;
+  const Patch& plane = s.patch(other);
+  const SamplePoint& at = sample_points(s.cached_set, s.triangular(node))[sample];
+  return dot(plane.normal, sample_place(s, node, at) - plane.centre) > s.flat;
+}
+
+BlockJudge::Shots BlockJudge::shots_of(const Pair& pair) const {
+  const std::uint32_t j = pair.j;
+  Shots shots(surfaces_.samples(node_), surfaces_.samples(j));
+  for (std::uint32_t k = 0; k < surfaces_.cached_points; ++k) {
+    shots.front_i[k] = !found_.pair.crossing || in_front(node_, k, j, place_);
+    shots.front_j[k] = !found_.pair.crossing || in_front(j, k, node_, own_place_);
   }
   return shots;
 }
 
 void BlockJudge::shoot(Shots& shots, std::uint32_t k, std::uint32_t l) {
-  if (!shots.front_i[k] || !shots.front_j[l]) return;
+  if (!shots.faces(k, l)) return;
   ++shots.all;
-  if (!tools_.sight.blocked(shots.at_i[k], shots.at_j[l], shots.link, intersector_)) ++shots.free;
+  if (tools_.sight.blocked(shots.at_i[k], shots.at_j[l], link_, intersector_)) return;
+  ++shots.free;
+  if (shots.panes) shots.passed += intersector_.panes().pass(shots.at_i[k], shots.at_j[l]);
+}
+
+/// The visible fraction by one segment: a shadow, or nothing, is as far as the pair matters.
+void BlockJudge::look_once(std::uint32_t k, std::uint32_t j, std::uint32_t l) {
+  Sight& sight = tools_.sight;
+  const LatticePoint &p = surfaces_.samples(node_)[k], &q = surfaces_.samples(j)[l];
+  if (!sight.meets(p, q) && sight.clear(own_box(false), box_of(j, false))) return;
+  found_.visible = fraction_of(sight.settle(p, q, link_, intersector_) ? 0 : 1, 1);
+}
+
+/// The same, and what panes between the two let through.
+Step BlockJudge::look_through_panes(const Pair& pair, std::uint32_t hash) {
+  const std::uint32_t last = surfaces_.cached_points - 1, turn = hash & last;
+  tools_.sight.list(own_box(false), box_of(pair.j, false));
+  Shots shots = shots_of(pair);
+  shots.panes = true;
+  if (pair.slight && !found_.pair.crossing) {
+    shoot(shots, turn, hash >> 2 & last);
+    found_.visible = fraction_of(shots.free, shots.all);
+  } else if (!shoot_all(pair, turn, shots)) {
+    return pair.split;
+  }
+  if (shots.all > 0) found_.visible.value = shots.passed / shots.all;
+  return Step::kLink;
 }
 
 /// The visible fraction, or the order to split. Segment (k, k ^ m ^ turn) is the k-th of round m: each round meets
 /// every sample of both ends once. `turn` differs from pair to pair, so that one segment a pair isn't always the same
 /// corner.
-Step BlockJudge::look(const RowSide& side, const Pair& pair) {
+Step BlockJudge::look(const Pair& pair) {
   const std::uint32_t j = pair.j, points = surfaces_.cached_points, last = points - 1;
-  const bool by_sixteen = within(pair.whole, kOfSixteen), full = pair.patches && !by_sixteen;
+  const bool by_sixteen = within(pair.whole, kOfSixteen), crossing = found_.pair.crossing;
+  Sight& sight = tools_.sight;
   found_.visible = {1, 0};
-  if (tools_.sight.clear(tools_.places.box(surfaces_, node_, own_place_, full),
-                         tools_.places.box(surfaces_, j, place_, full))) {
-    return Step::kLink;
-  }
+  const bool full = pair.patches && !by_sixteen;
+  const bool panes = intersector_.panes().any() && intersector_.panes().between(own_box(full), box_of(j, full));
   if (full) {
-    found_.visible = visible_fraction(surfaces_, node_, j, found_.pair.crossing, options_, intersector_,
-                                      &tools_.sight, {}, dense_);
+    if (sight.list(own_box(true), box_of(j, true)) && !panes) return Step::kLink;
+    found_.visible = visible_fraction(surfaces_, node_, j, crossing, options_, intersector_, &sight, {}, dense_);
     return Step::kLink;
   }
-  if (!by_sixteen) return pair.split;
+  if (!by_sixteen) return sight.clear(own_box(false), box_of(j, false)) && !panes ? Step::kLink : pair.split;
   const std::uint32_t hash = (node_ * 0x9E3779B1u + j * 0x85EBCA77u) >> 20, turn = hash & last;
-  Shots shots = shots_of(side, pair);
-  if (pair.slight && !found_.pair.crossing) {
-    shoot(shots, turn, hash >> 2 & last);
-  } else {
-    const bool mixed_splits = !pair.patches && !within(pair.whole, kOfMixed);
-    const bool by_four = within(pair.whole, kOfFour) && !found_.pair.crossing;
-    const bool by_eight = within(pair.whole, kOfEight) && !found_.pair.crossing;
-    const std::uint32_t rounds = by_four ? 1 : by_eight ? 2 : points;
-    for (std::uint32_t m = 0; m < points && (m < rounds || shots.mixed()); ++m) {
-      for (std::uint32_t k = 0; k < points; ++k) {
-        if (pair.slight && shots.all > 0) break;
-        shoot(shots, k, (k ^ m ^ turn) & last);
-        if (mixed_splits && !pair.slight && shots.mixed()) return pair.split;
-      }
+  if (panes) return look_through_panes(pair, hash);
+  if (pair.slight && !crossing) {
+    look_once(turn, j, hash >> 2 & last);
+    return Step::kLink;
+  }
+  Shots shots = shots_of(pair);
+  std::uint32_t first = 0;
+  while (first < points * points && !shots.faces(first & last, (first ^ first / points ^ turn) & last)) ++first;
+  if (first == points * points) {
+    if (!sight.clear(own_box(false), box_of(j, false))) found_.visible = {0, 0};
+    return Step::kLink;
+  }
+  const std::uint32_t from = first & last, to = (first ^ first / points ^ turn) & last;
+  if (pair.slight) {
+    look_once(from, j, to);
+    return Step::kLink;
+  }
+  if (sight.list_unless_blocked(shots.at_i[from], shots.at_j[to], own_box(false), box_of(j, false))) return Step::kLink;
+  return shoot_all(pair, turn, shots) ? Step::kLink : pair.split;
+}
+
+/// All rounds that the pair is worth; false if it is to be split.
+bool BlockJudge::shoot_all(const Pair& pair, std::uint32_t turn, Shots& shots) {
+  const std::uint32_t points = surfaces_.cached_points, last = points - 1;
+  const bool crossing = found_.pair.crossing, mixed_splits = !pair.patches && !within(pair.whole, kOfMixed);
+  const bool by_four = within(pair.whole, kOfFour) && !crossing, by_eight = within(pair.whole, kOfEight) && !crossing;
+  const std::uint32_t rounds = by_four ? 1 : by_eight ? 2 : points;
+  for (std::uint32_t m = 0; m < points && (m < rounds || shots.mixed()); ++m) {
+    for (std::uint32_t k = 0; k < points; ++k) {
+      shoot(shots, k, (k ^ m ^ turn) & last);
+      if (mixed_splits && shots.mixed()) return false;
     }
   }
-  // (f + 1/2) / (n + 1) after Jeffreys: that all agree doesn't make them certain.
-  const double n = shots.all, f = shots.free;
-  found_.visible = n > 0 ? VisibleFraction{f / n, (f + 0.5) * (n - f + 0.5) / ((n + 1) * (n + 1) * (n + 2))}
-                         : VisibleFraction{0, 0};
-  return Step::kLink;
+  found_.visible = fraction_of(shots.free, shots.all);
+  return true;
 }
 
 }  // namespace shodo

@@ -51,8 +51,9 @@ struct BlockLink {
 /// Judges the pairs of one node after the other.
 class BlockJudge {
  public:
-  BlockJudge(const Surfaces& surfaces, const Options& options, BlockTools& tools, Intersector& intersector)
-      : surfaces_(surfaces), options_(options), tools_(tools), intersector_(intersector) {}
+  BlockJudge(const Surfaces& surfaces, const Options& options, const LinkWalk& walk, BlockTools& tools,
+             Intersector& intersector)
+      : surfaces_(surfaces), options_(options), walk_(walk), tools_(tools), intersector_(intersector) {}
 
   /// Pairs of one side, j ascending; a block's parts after it.
   LinkWalk::Step judge(const RowSide& side, std::uint32_t j);
@@ -75,22 +76,36 @@ class BlockJudge {
 
   void start(const RowSide& side);
   LinkWalk::Step decide(const RowSide& side, std::uint32_t j);
-  LinkSeries series_of(const RowSide& side, std::uint32_t j) const;
+  LinkSeries series_of(const RowSide& side, std::uint32_t j);
+  bool out_of_sight(const RowSide& side);
+  const LatticeBox& own_box(bool whole) const { return own_boxes_[whole ? 1 : 0]; }
+  LatticeBox box_of(std::uint32_t j, bool whole) const { return tools_.places.box(surfaces_, j, place_, whole); }
   bool within(double squared, double part) const { return squared * (part * part) <= tools_.worth.allowed(); }
   bool varies_too_much(Pair& pair) const;
   bool measure(const RowSide& side, const Pair& pair);
-  LinkWalk::Step look(const RowSide& side, const Pair& pair);
-  Shots shots_of(const RowSide& side, const Pair& pair) const;
+  LinkWalk::Step look(const Pair& pair);
+  void look_once(std::uint32_t k, std::uint32_t j, std::uint32_t l);
+  LinkWalk::Step look_through_panes(const Pair& pair, std::uint32_t hash);
+  bool in_front(std::uint32_t node, std::uint32_t sample, std::uint32_t other, std::uint32_t place) const;
+  Shots shots_of(const Pair& pair) const;
+  bool shoot_all(const Pair& pair, std::uint32_t turn, Shots& shots);
   void shoot(Shots& shots, std::uint32_t k, std::uint32_t l);
 
   const Surfaces& surfaces_;
   const Options& options_;
+  const LinkWalk& walk_;
   BlockTools& tools_;
   Intersector& intersector_;
   std::uint32_t node_ = kNone;   // of the side at work
   std::uint32_t own_place_ = 0;  // of its mesh
   std::uint32_t place_ = 0;      // of j's mesh
   PlacedSide placed_ = {};
+  double own_sent_ = 0, own_uneven_ = 0;
+  bool own_block_ = false, top_ = false;  // it is one; no block holds it
+  bool away_ = false;                     // nothing of the mesh at asked_ can see it
+  std::uint32_t asked_ = kNone;
+  Link link_;  // to j
+  LatticeBox own_boxes_[2];  // around the cached samples; around all
   DenseSamples dense_;
   BlockLink found_;
 };

@@ -37,11 +37,12 @@ std::uint32_t rounded_log2(std::uint32_t count) {
 }  // namespace
 
 TreeKind tree_kind(const Scene& scene, const Mesh& mesh, const Rules& rules) {
-  if (!(rules.rule3 || rules.blocks) || mesh.patch_count() < 2 || mesh.kind == MeshKind::kGrid) return TreeKind::kNone;
+  if (!features::kTrees || !(rules.rule3 || rules.blocks)) return TreeKind::kNone;
+  if (mesh.patch_count() < 2 || mesh.kind == MeshKind::kGrid) return TreeKind::kNone;
   const Piece cell = cell_piece(scene, mesh, 0);
   if (cell.cut || !planar(cell) || !(length_squared(cell.vector_area()) > 0)) return TreeKind::kNone;
-  if (rules.rule3 && !equal_areas(shape_of(cell))) return TreeKind::kNone;
-  return rules.blocks && mesh.kind == MeshKind::kQuad ? TreeKind::kBinary : TreeKind::kFlat;
+  if (features::kRules && rules.rule3 && !equal_areas(shape_of(cell))) return TreeKind::kNone;
+  return features::blocks(rules) && mesh.kind == MeshKind::kQuad ? TreeKind::kBinary : TreeKind::kFlat;
 }
 
 TreeWalk::TreeWalk(const Scene& scene, const Mesh& mesh, const Rules& rules)

@@ -8,8 +8,6 @@ namespace {
 
 constexpr double kFarthest = 2500;  // squared distance over squared sides
 
-double magnitude(double x) { return x < 0 ? -x : x; }
-
 double term(double x, double root) { return x * root * arctangent(x / root); }
 
 double log_term(double factor, double squared) { return squared > 0 ? factor * logarithm(squared) : 0; }

@@ -11,8 +11,10 @@ namespace {
 void note_errors(const PairExchange& pair, const VisibleFraction& visible, double area_i, double area_j,
                  std::uint32_t i, std::uint32_t j, RowErrors& errors) {
   const double geometry = pair.error * visible.value;
-  errors.geometry[i] += geometry / area_i;
-  errors.geometry[j] += geometry / area_j;
+  if (geometry > 0) {
+    errors.geometry[i] += geometry / area_i;
+    errors.geometry[j] += geometry / area_j;
+  }
   if (!(visible.variance > 0)) return;
   const double squared = pair.geometric * pair.geometric * visible.variance;
   errors.visibility[i] += squared / (area_i * area_i);
@@ -57,6 +59,7 @@ void put_link(const Surfaces& surfaces, std::uint32_t i, std::uint32_t j, const 
     ++errors->computed;
     note_errors(pair, visible, root_i * root_i, root_j * root_j, i, j, *errors);
   }
+  if (!(visible.value > 0)) return;
   const double value = pair.geometric * visible.value / (root_i * root_j);
   if (value > 0) writer.add(j, value < 1 ? value : 1);
 }
@@ -81,8 +84,8 @@ void compute_row(const Surfaces& surfaces, const Sparsity& sparsity, LinkWalk& w
   if (!(surfaces.root_area[i] > 0)) return;
   NodeGeometry own;
   const RowSide side = row_side(surfaces, i, own);
-  if (options.rules.blocks) {
-    BlockJudge judge(surfaces, options, tools, intersector);
+  if (features::blocks(options.rules)) {
+    BlockJudge judge(surfaces, options, walk, tools, intersector);
     walk.visit(
         side, [&](const RowSide& from, std::uint32_t j) { return judge.judge(from, j); },
         [&](std::uint32_t j) {

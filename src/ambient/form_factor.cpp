@@ -31,21 +31,20 @@ double mean_kernel(const RowSide& i, const RowSide& j, const Vec3& apart) {
     over_i[k] = dot(i.patch->normal, apart + j.gauss[k]);
     over_j[k] = dot(j.patch->normal, i.gauss[k] - apart);
   }
+  const bool flat = i.own[0] == 0 && j.own[0] == 0;  // then all are
   double sum = 0;
   for (int k = 0; k < 4; ++k) {
     const Vec3 from = apart - i.gauss[k];
     double sum_k = 0;
     for (int l = 0; l < 4; ++l) {
       const double squared = length_squared(from + j.gauss[l]);
-      const double h = (over_i[l] - i.own[k]) * (over_j[k] - j.own[l]);
+      const double h = flat ? over_i[l] * over_j[k] : (over_i[l] - i.own[k]) * (over_j[k] - j.own[l]);
       sum_k += j.weight[l] * (h / (squared * squared));
     }
     sum += i.weight[k] * sum_k;
   }
   return sum > 0 ? sum : 0;
 }
-
-double magnitude(double x) { return x < 0 ? -x : x; }
 
 /// True if `i` is to be looked at from points of j. Heights: of i's centre over j's plane, and the other way.
 bool looks_at_first(const Patch& i, const Patch& j, double height_of_i, double height_of_j) {
@@ -157,17 +156,20 @@ PairSeries series_between(const Surfaces& surfaces, const RowSide& i, std::uint3
   if (shape.outline == Outline::kConcave || i.shape->outline == Outline::kConcave) return series;
   series.found = true;
   const double over_squared = 1 / series.squared;
-  const SeriesSide of_j = series_over(shape, apart, i.patch->normal, over_squared, 1 / over_i);
-  const SeriesSide of_i = series_over(*i.shape, -apart, other.normal, over_squared, 1 / over_j);
   const double areas = i.patch->area * other.area * kInversePi;
   const double q = sides * over_squared * (1.0 / 3);
-  series.vary_i = of_i.vary + kCurved * q * q;
-  series.vary_j = of_j.vary + kCurved * q * q;
-  const double kernel = areas * over_squared * over_squared * over_i * over_j;
   const bool triangular = shape.outline == Outline::kTriangle || i.shape->outline == Outline::kTriangle;
-  const bool even = (shape.even & i.shape->even) != 0;
-  series.geometric = triangular || !even ? areas * mean_kernel(i, row_side(surfaces, j), apart)
-                                         : kernel * (1 + (of_i.mean + of_j.mean));
+  const bool by_points = triangular || (shape.even & i.shape->even) == 0;
+  const bool patches = !surfaces.is_block(i.position) && !surfaces.is_block(j);  // aren't split, however it varies
+  if (!by_points || !patches) {
+    const SeriesSide of_j = series_over(shape, apart, i.patch->normal, over_squared, 1 / over_i);
+    const SeriesSide of_i = series_over(*i.shape, -apart, other.normal, over_squared, 1 / over_j);
+    series.vary_i = of_i.vary + kCurved * q * q;
+    series.vary_j = of_j.vary + kCurved * q * q;
+    const double kernel = areas * over_squared * over_squared * over_i * over_j;
+    series.geometric = kernel * (1 + (of_i.mean + of_j.mean));
+  }
+  if (by_points) series.geometric = areas * mean_kernel(i, row_side(surfaces, j), apart);
   series.error = kSeriesShareError * q * q * areas * over_squared;
   return series;
 }

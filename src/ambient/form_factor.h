@@ -53,7 +53,8 @@ struct PairSeries {
   double squared = 0;       // of the distance of the centres
   double geometric = 0;
   double error = 0;         // of it, estimated
-  double vary_i = 0, vary_j = 0;  // mean squares of how the kernel varies over i, and over j, relative
+  // Mean squares of how the kernel varies over i, and over j, relative; not always found where both are patches.
+  double vary_i = 0, vary_j = 0;
 };
 
 PairSeries series_between(const Surfaces& surfaces, const RowSide& i, std::uint32_t j);

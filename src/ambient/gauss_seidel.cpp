@@ -1,5 +1,7 @@
 #include "ambient/gauss_seidel.h"
 
+#include "base/features.h"
+
 namespace shodo {
 
 namespace {
@@ -8,8 +10,6 @@ namespace {
 constexpr std::uint32_t kPatience = 30;
 /// Sweeps with larger changes than the sweep before, after which corrections are no longer tried.
 constexpr std::uint32_t kSetbacks = 3;
-
-double magnitude(double x) { return x < 0 ? -x : x; }
 
 /// By channel: what a sweep changed at most, and the largest illuminance.
 struct SweepResult {
@@ -24,33 +24,46 @@ struct SweepResult {
   }
 };
 
-/// One sweep's inner loops at row i: sum over j > i of v_ij sent_j, on top of `sum`.
-template <bool kDoubles, std::uint32_t kChannels>
-void gather(const std::uint16_t* row, std::uint32_t i, const double* sent, double* sum) {
-  for (RowReader<kDoubles> entry(row, i); entry.next();) {
-    const double v = entry.value();
-    const double* from = sent + std::size_t{entry.column()} * kChannels;
-    for (std::uint32_t c = 0; c < kChannels; ++c) sum[c] += v * from[c];
-  }
-}
-
-template <bool kDoubles, std::uint32_t kChannels>
-void scatter(const std::uint16_t* row, std::uint32_t i, const double* sent_i, double* gathered) {
-  for (RowReader<kDoubles> entry(row, i); entry.next();) {
-    const double v = entry.value();
-    double* to = gathered + std::size_t{entry.column()} * kChannels;
-    for (std::uint32_t c = 0; c < kChannels; ++c) to[c] += v * sent_i[c];
-  }
-}
-
 struct Run {
   const DirectLight& direct;
   const Intersector& intersector;
   const Progress& progress;
   Matrix& matrix;
   Solver& solver;
+  std::uint32_t channels;
+  bool doubles;
   double relaxation = 1;  // a patch goes so many times the way that its row asks for
 };
+
+/// 0 as a template's argument: known only now.
+template <std::uint32_t kChannels>
+std::uint32_t channels_of(const Run& run) {
+  return kChannels == 0 ? run.channels : kChannels;
+}
+
+/// One sweep's inner loops at row i: sum over j > i of v_ij sent_j, on top of `sum`.
+template <RowFormat kFormat, std::uint32_t kChannels>
+void gather(const Run& run, const std::uint16_t* row, std::uint32_t i, double* sum) {
+  const std::uint32_t channels = channels_of<kChannels>(run);
+  const double* sent = run.solver.sent.data();
+  for (RowReader<kFormat> entry(row, i, run.doubles); entry.next();) {
+    const double v = entry.value();
+    const double* from = sent + std::size_t{entry.column()} * channels;
+    for (std::uint32_t c = 0; c < channels; ++c) sum[c] += v * from[c];
+  }
+}
+
+template <RowFormat kFormat, std::uint32_t kChannels>
+void scatter(Run& run, const std::uint16_t* row, std::uint32_t i) {
+  const std::uint32_t channels = channels_of<kChannels>(run);
+  const double* sent_i = &run.solver.sent[std::size_t{i} * channels];
+  double* gathered = run.solver.gathered.data();
+  for (RowReader<kFormat> entry(row, i, run.doubles); entry.next();) {
+    const double v = entry.value();
+    double* to = gathered + std::size_t{entry.column()} * channels;
+    for (std::uint32_t c = 0; c < channels; ++c) to[c] += v * sent_i[c];
+  }
+}
 
 /// New values of patch i from its sum; what it sends from now on.
 template <std::uint32_t kChannels>
@@ -58,8 +71,9 @@ void update(Run& run, std::uint32_t i, std::uint32_t group, const double* reflec
             SweepResult& result) {
   const Surfaces& surfaces = run.matrix.surfaces;
   const double root = surfaces.root_area[i], factor = run.matrix.factor[i];
-  for (std::uint32_t c = 0; c < kChannels; ++c) {
-    const std::size_t at = std::size_t{surfaces.patch_at[i]} * kChannels + c;
+  const std::uint32_t channels = channels_of<kChannels>(run);
+  for (std::uint32_t c = 0; c < channels; ++c) {
+    const std::size_t at = std::size_t{surfaces.patch_at[i]} * channels + c;
     const double asked = factor * sum[c], before = run.solver.ambient_lx[at];
     double ambient = asked;
     if (run.relaxation > 1) {
@@ -70,7 +84,7 @@ void update(Run& run, std::uint32_t i, std::uint32_t group, const double* reflec
     const double change = ambient - before;
     const double total = run.direct.patch_lx[at] + ambient;
     run.solver.ambient_lx[at] = ambient;
-    run.solver.sent[std::size_t{i} * kChannels + c] = run.matrix.sparsity.sends(i) ? reflectance[c] * root * total : 0;
+    run.solver.sent[std::size_t{i} * channels + c] = run.matrix.sparsity.sends(i) ? reflectance[c] * root * total : 0;
     run.matrix.coarse.add_change(group, c, root * root, change);
     if (magnitude(change) > result.change[c]) result.change[c] = magnitude(change);
     if (magnitude(total) > result.largest[c]) result.largest[c] = magnitude(total);
@@ -81,10 +95,11 @@ void update(Run& run, std::uint32_t i, std::uint32_t group, const double* reflec
 template <std::uint32_t kChannels>
 void hand_down(Run& run, std::uint32_t b, const double* sum) {
   const Surfaces& surfaces = run.matrix.surfaces;
+  const std::uint32_t channels = channels_of<kChannels>(run);
   for (std::uint32_t child = b + 1; child < surfaces.end(b); child = surfaces.end(child)) {
     const double share = surfaces.share(child, b);
-    double* to = &run.solver.gathered[std::size_t{child} * kChannels];
-    for (std::uint32_t c = 0; c < kChannels; ++c) to[c] += share * sum[c];
+    double* to = &run.solver.gathered[std::size_t{child} * channels];
+    for (std::uint32_t c = 0; c < channels; ++c) to[c] += share * sum[c];
   }
 }
 
@@ -112,12 +127,13 @@ struct SweepState {
 };
 
 /// Node i gathers; a patch gets its new value and sends it on, a block hands down what it gathered.
-template <bool kDoubles, std::uint32_t kChannels>
+template <RowFormat kFormat, std::uint32_t kChannels>
 void sweep_node(Run& run, SweepState& state, std::uint32_t i, const MeshWalk& at_i) {
   Matrix& matrix = run.matrix;
-  double sum[kChannels];
-  double* gathered = &run.solver.gathered[std::size_t{i} * kChannels];
-  for (std::uint32_t c = 0; c < kChannels; ++c) {
+  const std::uint32_t channels = channels_of<kChannels>(run);
+  double sum[kChannels == 0 ? 3 : kChannels];
+  double* gathered = &run.solver.gathered[std::size_t{i} * channels];
+  for (std::uint32_t c = 0; c < channels; ++c) {
     sum[c] = gathered[c];
     gathered[c] = 0;
   }
@@ -126,19 +142,19 @@ void sweep_node(Run& run, SweepState& state, std::uint32_t i, const MeshWalk& at
   for (std::uint8_t g = 0; g < matrix.generations(); ++g) {
     row[g] = state.rows[g].row(matrix, state.uncounted, i);
     if (!matrix.keeps(g, i)) in_scratch = g;
-    gather<kDoubles, kChannels>(row[g], i, run.solver.sent.data(), sum);
+    gather<kFormat, kChannels>(run, row[g], i, sum);
   }
   if (matrix.surfaces.is_block(i)) return hand_down<kChannels>(run, i, sum);
   update<kChannels>(run, i, matrix.coarse.group_of_mesh(at_i.place()), at_i.reflectance(), sum, state.result);
   // No column is in two generations, so their order doesn't matter: the last, if it isn't kept, is still at hand.
   for (std::uint32_t g = matrix.generations(); g-- > 0;) {
     if (!matrix.keeps(g, i) && g != in_scratch) row[g] = state.rows[g].row(matrix, state.uncounted, i);
-    scatter<kDoubles, kChannels>(row[g], i, &run.solver.sent[std::size_t{i} * kChannels], run.solver.gathered.data());
+    scatter<kFormat, kChannels>(run, row[g], i);
   }
 }
 
 /// The blocks of a mesh send, from its first node on; `rows` stand there.
-template <bool kDoubles, std::uint32_t kChannels>
+template <RowFormat kFormat, std::uint32_t kChannels>
 void send_blocks(Run& run, SweepState& state, RowCursor* rows, std::uint32_t begin, std::uint32_t end) {
   Matrix& matrix = run.matrix;
   sum_up(run, begin, end);
@@ -148,13 +164,12 @@ void send_blocks(Run& run, SweepState& state, RowCursor* rows, std::uint32_t beg
         rows[g].skip(matrix, i);
         continue;
       }
-      scatter<kDoubles, kChannels>(rows[g].row(matrix, state.uncounted, i), i,
-                                   &run.solver.sent[std::size_t{i} * kChannels], run.solver.gathered.data());
+      scatter<kFormat, kChannels>(run, rows[g].row(matrix, state.uncounted, i), i);
     }
   }
 }
 
-template <bool kDoubles, std::uint32_t kChannels>
+template <RowFormat kFormat, std::uint32_t kChannels>
 SweepResult sweep(Run& run) {
   Matrix& matrix = run.matrix;
   const Surfaces& surfaces = matrix.surfaces;
@@ -174,19 +189,20 @@ SweepResult sweep(Run& run) {
     const bool blocks = surfaces.is_block(begin);
     for (std::uint8_t g = 0; blocks && i == begin && g < matrix.generations(); ++g) at_mesh[g] = state.rows[g];
     if (surfaces.root_area[i] > 0) {
-      sweep_node<kDoubles, kChannels>(run, state, i, at_i);
+      sweep_node<kFormat, kChannels>(run, state, i, at_i);
     } else {
       for (std::uint8_t g = 0; g < matrix.generations(); ++g) state.rows[g].skip(matrix, i);
     }
-    if (blocks && i + 1 == end) send_blocks<kDoubles, kChannels>(run, state, at_mesh, begin, end);
+    if (blocks && i + 1 == end) send_blocks<kFormat, kChannels>(run, state, at_mesh, begin, end);
   }
   return state.result;
 }
 
 SweepResult sweep_once(Run& run) {
-  const bool grey = run.matrix.surfaces.scene->channels == 1;
-  if (run.matrix.doubles()) return grey ? sweep<true, 1>(run) : sweep<true, 3>(run);
-  return grey ? sweep<false, 1>(run) : sweep<false, 3>(run);
+  if constexpr (features::kSmallCode) return sweep<RowFormat::kEither, 0>(run);
+  const bool grey = run.channels == 1;
+  if (run.doubles) return grey ? sweep<RowFormat::kDoubles, 1>(run) : sweep<RowFormat::kDoubles, 3>(run);
+  return grey ? sweep<RowFormat::kShort, 1>(run) : sweep<RowFormat::kShort, 3>(run);
 }
 
 /// rho_i R_i (E0_i + a_i) of every patch, with the correction of its group added to a_i first. Light is never negative;
@@ -348,7 +364,7 @@ double largest_change(const SweepResult& result) {
 
 Status solve_rows(const DirectLight& direct, const Intersector& intersector, const Progress& progress, Matrix& matrix,
                   Solver& solver, Statistics& statistics) {
-  Run run{direct, intersector, progress, matrix, solver};
+  Run run{direct, intersector, progress, matrix, solver, matrix.surfaces.scene->channels, matrix.doubles()};
   const double tolerance = matrix.options->tolerance;
   prepare(run);
   Watch watch;

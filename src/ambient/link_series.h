@@ -34,7 +34,7 @@ enum class PlaceKind : std::uint8_t { kOdd, kQuad, kTriangle };
 /// One mesh: half axes of a patch in 1/16 lattice steps, normal in 1/2^14.
 struct MeshPlace {
   std::int32_t a[3] = {0, 0, 0}, b[3] = {0, 0, 0};
-  std::int16_t normal[3] = {0, 0, 0};
+  std::int16_t normal[3] = {0, 0, 0};  // 0 unless planar
   PlaceKind kind = PlaceKind::kOdd;
   std::uint8_t flat = 0;  // bit k: all samples have the same coordinate along axis k
 };
@@ -74,6 +74,9 @@ class Places {
   LatticeBox box(const Surfaces& surfaces, std::uint32_t node, std::uint32_t place, bool whole) const;
   LatticeBox mesh_box(const Surfaces& surfaces, std::uint32_t place) const;
   PlacedSide side(std::uint32_t node, std::uint32_t mesh_place) const;
+  /// Where a sample's lattice point is to the plane of a node, whose mesh has this place: 1 in front, -1 behind, 0 too
+  /// near to tell.
+  int sign_over(std::uint32_t node, std::uint32_t place, const LatticePoint& point) const;
   /// `place`: of j's mesh in Surfaces::mesh_at.
   LinkSeries series(const PlacedSide& i, std::uint32_t j, std::uint32_t place) const;
 

@@ -11,7 +11,8 @@
 //
 // Row a lists the links from node a to later ones, ascending. A block hands on to its parts the nodes for which it must
 // be split itself, so a pair of ancestors is judged once for all the rows below it. Rows may be asked for in any order;
-// ascending is fast. Bytes: 2 times the patches for each level of blocks, 4 with more than 65,536 nodes.
+// ascending is fast. Meshes that are out of a row's sight are left out first; with blocks the judge asks for it, as its
+// integers tell most often. Bytes: 2 times the patches for each level of blocks, 4 with more than 65,536 nodes.
 #pragma once
 
 #include <cstdint>
@@ -38,6 +39,9 @@ class LinkWalk {
   /// Without rules, and with rule 3: nothing, a link, or which of the two is split.
   Step judge(std::uint32_t a, std::uint32_t b) const;
 
+  /// True if nothing of mesh_at[k] can see the node; decided by the mesh's corners, which hold all its patches.
+  bool out_of_sight(const RowSide& side, std::uint32_t k) const;
+
   /// Calls link(b) for every link from a to b > a that any generation has; `side` is a's. judge(side, b) says what
   /// becomes of a pair; when it says kLink, and the pair is of row a, link(b) follows at once.
   template <class Judge, class Link>
@@ -57,7 +61,6 @@ class LinkWalk {
   Step judge_rule3(std::uint32_t a, std::uint32_t b) const;
   bool far_from(std::uint32_t patch, std::uint32_t mesh) const;
   std::uint32_t far_links(std::uint32_t parts_of, std::uint32_t whole) const;
-  bool out_of_sight(const RowSide& side, std::uint32_t k) const;
   std::uint32_t mesh_of(std::uint32_t node) const;
   void open_level(std::uint32_t a);
 
@@ -78,7 +81,7 @@ class LinkWalk {
   template <class Judge, class Link>
   void expand(const RowSide& side, Judge&& judge, Link&& link) {
     const std::uint32_t a = side.position;
-    const bool top = levels_ == 0;
+    const bool top = !features::kTrees || levels_ == 0;
     const Level above = top ? Level{} : level_[levels_ - 1];
     if (surfaces_->is_block(a)) open_level(a);
     if (!top) {
@@ -90,7 +93,7 @@ class LinkWalk {
     }
     const std::uint32_t own = mesh_of(a), meshes = static_cast<std::uint32_t>(surfaces_->mesh_at.size());
     for (std::uint32_t k = own; k < meshes; ++k) {
-      if (k == own ? surfaces_->planar[k] != 0 : out_of_sight(side, k)) continue;
+      if (k == own ? surfaces_->planar[k] != 0 : looks_ && out_of_sight(side, k)) continue;
       descend(side, k == own ? a + 1 : surfaces_->mesh_begin[k], surfaces_->mesh_begin[k + 1], judge, link);
     }
   }
@@ -115,6 +118,7 @@ class LinkWalk {
   const Surfaces* surfaces_ = nullptr;
   const Sparsity* sparsity_ = nullptr;
   double diameters_squared_ = 0;
+  bool looks_ = false;             // else the judge asks, where its integers don't tell
   std::span<std::uint16_t> left_;  // a node in one word, or two
   bool wide_ = false;              // two
   Level level_[kDeepest];

@@ -1,6 +1,7 @@
 #include "ambient/matrix.h"
 
 #include "ambient/exchange_row.h"
+#include "base/features.h"
 
 namespace shodo {
 
@@ -17,6 +18,7 @@ struct FirstPass {
   const DirectLight& direct;
   FirstPassScratch scratch;
   Statistics& statistics;
+  const Panes& panes;
 };
 
 /// What the row's sum may be wrong by (matrix.h).
@@ -58,8 +60,15 @@ LiveEnds ends_of(const Matrix& matrix, std::uint32_t node) {
   return {matrix.sparsity.receives(node) ? 1u : 0u, matrix.sparsity.sends(node) ? 1u : 0u};
 }
 
+/// The part of a mesh's directions that is its own: through a pane one sees what is behind as well.
+double solid_part(const Surfaces& surfaces, std::uint32_t place, std::uint32_t channel) {
+  const Mesh& mesh = surfaces.scene->meshes[surfaces.mesh_at[place]];
+  const Optics* const optics = surfaces.scene->optics_of(mesh.material);
+  return optics == nullptr ? 1 : 1 - optics->transmit.c[channel];
+}
+
 /// Adds row i's entries to the sums of the rows after it, to its own in `sums`, and to the coarse matrix.
-template <bool kDoubles>
+template <RowFormat kFormat>
 void spread_row(FirstPass& pass, std::uint32_t i, const MeshWalk& at_i, const std::uint16_t* row, UpperSums& sums) {
   Matrix& matrix = pass.matrix;
   const Surfaces& surfaces = matrix.surfaces;
@@ -69,13 +78,19 @@ void spread_row(FirstPass& pass, std::uint32_t i, const MeshWalk& at_i, const st
   const LiveEnds ends_i = ends_of(matrix, i);
   MeshWalk at_j = at_i;
   std::uint32_t group_j = group_i;
-  for (RowReader<kDoubles> entry(row, i); entry.next();) {
+  const bool panes = pass.panes.any();
+  const double solid_i = panes ? solid_part(surfaces, at_i.place(), pass.panes.channel()) : 1;
+  double solid_j = solid_i;
+  for (RowReader<kFormat> entry(row, i, matrix.doubles()); entry.next();) {
     const std::uint32_t j = entry.column();
-    if (at_j.go_to(j)) group_j = matrix.coarse.group_of_mesh(at_j.place());
+    if (at_j.go_to(j)) {
+      group_j = matrix.coarse.group_of_mesh(at_j.place());
+      if (panes) solid_j = solid_part(surfaces, at_j.place(), pass.panes.channel());
+    }
     const double v = entry.value();
     const double to_i = v * matrix.sending_root(j), to_j = v * sending_i;
-    sums.all += to_i;
-    matrix.factor[j] += to_j;
+    sums.all += panes ? solid_j * to_i : to_i;
+    matrix.factor[j] += panes ? solid_i * to_j : to_j;
     for (std::uint32_t c = 0; c < channels; ++c) {
       sums.reflected[c] += to_i * at_j.reflectance()[c];
       pass.scratch.reflected[j * channels + c] += to_j * at_i.reflectance()[c];
@@ -172,7 +187,13 @@ UpperSums add_rows(FirstPass& pass, std::uint32_t i, const MeshWalk& at_i, RowCu
       matrix.stores[g].keep(made);
       row = made.data();
     }
-    matrix.doubles() ? spread_row<true>(pass, i, at_i, row, sums) : spread_row<false>(pass, i, at_i, row, sums);
+    if constexpr (features::kSmallCode) {
+      spread_row<RowFormat::kEither>(pass, i, at_i, row, sums);
+    } else if (matrix.doubles()) {
+      spread_row<RowFormat::kDoubles>(pass, i, at_i, row, sums);
+    } else {
+      spread_row<RowFormat::kShort>(pass, i, at_i, row, sums);
+    }
   }
   return sums;
 }
@@ -217,7 +238,7 @@ Status prepare_matrix(const DirectLight& direct, Arena& arena, Matrix& matrix) {
 Status build_matrix(const DirectLight& direct, const Progress& progress, Intersector& intersector,
                     const FirstPassScratch& scratch, Matrix& matrix, Statistics& statistics) {
   const std::uint32_t n = matrix.surfaces.size();
-  FirstPass pass{matrix, direct, scratch, statistics};
+  FirstPass pass{matrix, direct, scratch, statistics, intersector.panes()};
   forget_sums(pass);
   RowErrors errors{pass.scratch.geometry_errors, pass.scratch.visibility_errors};
   RowCursor earlier[kGenerations];

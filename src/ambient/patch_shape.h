@@ -19,7 +19,7 @@ enum class Outline : std::uint32_t { kQuad, kTriangle, kConcave };
 struct PatchShape {
   Vec3 a, b, d;                 // scene units
   double alpha = 0, beta = 0;   // of the area element
-  Outline outline = Outline::kQuad;
+  features::FixedUnless<features::kMeshes, Outline, Outline::kQuad> outline = Outline::kQuad;
   std::uint32_t even = 1;       // alpha and beta are 0
 
   Vec3 offset(double x, double y) const { return (x * a + y * b) + (x * y) * d; }

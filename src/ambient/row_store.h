@@ -43,11 +43,15 @@ class RowWriter {
   bool doubles_;
 };
 
+/// Which values a reader is made for: loops that know it are faster; one that asks row by row serves both.
+enum class RowFormat : std::uint8_t { kShort, kDoubles, kEither };
+
 /// Reads the entries of a row in ascending order. A row is its header (words that follow, low word first) and entries.
-template <bool kDoubles>
+template <RowFormat kFormat>
 class RowReader {
  public:
-  RowReader(const std::uint16_t* row, std::uint32_t index) : word_(row + kRowHeaderWords), column_(index) {
+  RowReader(const std::uint16_t* row, std::uint32_t index, bool doubles)
+      : word_(row + kRowHeaderWords), column_(index), either_(doubles) {
     end_ = word_ + (row[0] | std::uint32_t{row[1]} << 16);
   }
 
@@ -57,24 +61,27 @@ class RowReader {
       const std::uint32_t gap = word_[0];
       column_ += gap;
       value_at_ = word_ + 1;
-      word_ += kDoubles ? 5 : 2;
+      word_ += doubles() ? 5 : 2;
       if (gap != kLongGap) return true;
     }
     return false;
   }
   std::uint32_t column() const { return column_; }
   double value() const {
-    if constexpr (!kDoubles) return static_cast<double>(decode_row_value(*value_at_));
+    if (!doubles()) return static_cast<double>(decode_row_value(*value_at_));
     std::uint64_t bits = 0;
     for (int k = 3; k >= 0; --k) bits = bits << 16 | value_at_[k];
     return std::bit_cast<double>(bits);
   }
 
  private:
+  bool doubles() const { return kFormat == RowFormat::kEither ? either_ : kFormat == RowFormat::kDoubles; }
+
   const std::uint16_t* word_;
   const std::uint16_t* end_;
   const std::uint16_t* value_at_ = nullptr;
   std::uint32_t column_;
+  bool either_;  // read by kEither only
 };
 
 /// The first rows of the matrix, as many as fit; they are read from the first to the last.

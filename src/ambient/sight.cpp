@@ -1,16 +1,11 @@
 #include "ambient/sight.h"
 
-#include "base/check.h"
+#include "ambient/lean_shaft.h"
 #include "visibility/triangle_test.h"
 
 namespace shodo {
 
 namespace {
-
-constexpr std::uint32_t kClusterFacets = 6;
-constexpr std::int32_t kLarge = kLatticeHalf / 4;  // facets longer than that are clusters of their own
-constexpr std::uint8_t kNoBlocker = 8;
-constexpr std::uint32_t kShort = 8;  // a list so short isn't narrowed for parts
 
 std::uint32_t facet_count(const Geometry& geometry) { return Blockers::facet_count(geometry); }
 
@@ -58,19 +53,14 @@ std::uint8_t kind_of(const Geometry& geometry, const Facet& facet) {
   return static_cast<std::uint8_t>(axis + 1 + (full ? 4 : 0));
 }
 
-std::int32_t longest_side(const LatticeBox& box) {
-  std::int32_t longest = 0;
-  for (int k = 0; k < 3; ++k) {
-    if (box.high[k] - box.low[k] > longest) longest = box.high[k] - box.low[k];
-  }
-  return longest;
-}
+LatticeBox box_of(const LatticePoint& p) { return {{p.x, p.y, p.z}, {p.x, p.y, p.z}}; }
 
 /// Calls visit(box) for each facet of a scene, without any structure; stops at true.
 template <class Visit>
 bool any_facet(const Geometry& geometry, Visit visit) {
   for (const std::span<PolygonTriangles> polygons : {geometry.cells, geometry.light_triangles}) {
     for (const PolygonTriangles& polygon : polygons) {
+      if (geometry.is_pane(polygon)) continue;
       for (std::uint32_t k = 0; k < polygon.count; k += 2) {
         bool tilted = false;
         const std::uint32_t count = k + 1 < polygon.count ? 2 : 1;
@@ -83,56 +73,20 @@ bool any_facet(const Geometry& geometry, Visit visit) {
 
 }  // namespace
 
-LeanShaft::LeanShaft(const LatticeBox& a, const LatticeBox& b) : around_(a) {
-  around_.include(b);
-  LatticeBox from, to;
-  for (int k = 0; k < 3; ++k) {
-    from.low[k] = low_of(a.low[k]);
-    from.high[k] = high_of(a.high[k]);
-    to.low[k] = low_of(b.low[k]);
-    to.high[k] = high_of(b.high[k]);
-  }
-  add_lines(from, to, 0, 1);
-  add_lines(from, to, 1, 2);
-  add_lines(from, to, 2, 0);
-}
-
-/// As Shaft::add_lines.
-void LeanShaft::add_lines(const LatticeBox& a, const LatticeBox& b, std::uint32_t u, std::uint32_t v) {
-  for (std::uint32_t corner = 0; corner < 4; ++corner) {
-    const bool high_u = (corner & 1) != 0, high_v = (corner & 2) != 0;
-    const std::int32_t au = high_u ? a.high[u] : a.low[u], av = high_v ? a.high[v] : a.low[v];
-    const std::int32_t du = (high_u ? b.high[u] : b.low[u]) - au, dv = (high_v ? b.high[v] : b.low[v]) - av;
-    if (du == 0 || dv == 0) continue;  // a side of the common box
-    const bool rising = (du > 0) == (dv > 0);
-    if (rising == (high_u == high_v)) continue;
-    Line& line = lines_[lines_used_++];
-    line.normal_u = (dv > 0) == high_u ? dv : -dv;
-    line.normal_v = (du > 0) == high_v ? du : -du;
-    line.u = u;
-    line.v = v;
-    // A box's bounds are rounded down, and flat ones may be a lattice step too small.
-    const std::int32_t slack = (dv < 0 ? -dv : dv) + (du < 0 ? -du : du);
-    line.limit = line.normal_u * au + line.normal_v * av + 2 * slack;
-  }
-}
-
 std::uint64_t Sight::bytes(const Geometry& geometry, const Options& options) {
-  if (options.flags == FlagMode::kOff) return 0;
+  if (!features::aims(options.flags)) return 0;
   const std::uint32_t facets = facet_count(geometry);
-  return 4 * std::uint64_t{kListWords} + (std::uint64_t{facets} + 7) / 8 * 8 + (2 * std::uint64_t{facets} + 7) / 8 * 8 +
-         (sizeof(Cluster) * std::uint64_t{most_clusters(facets)} + 7) / 8 * 8;
+  return (std::uint64_t{facets} + 7) / 8 * 8 + (2 * std::uint64_t{facets} + 7) / 8 * 8 +
+         (sizeof(LeanBox) * std::uint64_t{facets} + 7) / 8 * 8 + FacetMasks::bytes(facets);
 }
 
 Status Sight::take(Arena& arena, const Geometry& geometry, const Options& options) {
   geometry_ = &geometry;
   lists_ = false;
-  if (options.flags == FlagMode::kOff) return {};
+  if (!features::aims(options.flags)) return {};
   const std::uint32_t facets = facet_count(geometry);
-  const bool taken = arena.take("blockers left to parts", kListWords, left_) &&
-                     arena.take("blockers of a row", kListWords, row_) &&
-                     arena.take("kinds of blockers", facets, kinds_) &&
-                     arena.take("clusters of blockers", most_clusters(facets), clusters_) &&
+  const bool taken = arena.take("kinds of blockers", facets, kinds_) && masks_.take(arena, facets) &&
+                     arena.take("boxes of blockers, rounded", facets, lean_) &&
                      arena.take("blockers of a link", facets, pair_);
   return taken ? Status{} : arena.refused();
 }
@@ -140,114 +94,62 @@ Status Sight::take(Arena& arena, const Geometry& geometry, const Options& option
 void Sight::start(Intersector& intersector) {
   lists_ = intersector.seeking() && intersector.facets().size() <= 0xffff;
   facets_ = intersector.facets();
-  clusters_used_ = 0;
-  bool open = false;
-  for (std::uint32_t f = 0; lists_ && f < facets_.size(); ++f) {
-    const Facet& facet = facets_[f];
-    const bool blocks = intersector.blocks(f, LightSet::kAmbient), alone = longest_side(facet.box) > kLarge;
-    kinds_[f] = blocks ? kind_of(*geometry_, facet) : kNoBlocker;
-    if (open && (!blocks || alone || f - clusters_[clusters_used_ - 1].first == kClusterFacets)) open = false;
-    if (!blocks) continue;
-    const std::uint16_t here = static_cast<std::uint16_t>(f);
-    if (!open && clusters_used_ < clusters_.size()) clusters_[clusters_used_++] = {{}, here, here};
-    open = !alone;
-    Cluster& cluster = clusters_[clusters_used_ - 1];
-    cluster.end = static_cast<std::uint16_t>(f + 1);
-    cluster.box.include(facet.box);
-  }
-}
-
-/// Of the list, or of all facets, those in the shaft.
-std::uint32_t Sight::collect(const LeanShaft& shaft, std::uint16_t* to) const {
-  std::uint32_t count = 0;
-  if (list_ == nullptr) {
-    for (const Cluster& cluster : clusters_.first(clusters_used_)) {
-      if (shaft.misses(cluster.box)) continue;
-      for (std::uint32_t f = cluster.first; f < cluster.end; ++f) {
-        if (kinds_[f] != kNoBlocker && !shaft.misses(facets_[f].box)) to[count++] = static_cast<std::uint16_t>(f);
-      }
-    }
-    return count;
-  }
-  for (std::uint32_t k = 0; k < listed_; ++k) {
-    if (!shaft.misses(facets_[list_[k]].box)) to[count++] = list_[k];
-  }
-  return count;
-}
-
-void Sight::open(std::uint32_t node, std::uint32_t end, const LatticeBox& box) {
-  box_ = box;
-  parts_ = 0;
-  while (levels_ > 0 && (node <= level_[levels_ - 1].node || node >= level_[levels_ - 1].end)) --levels_;
-  above_ = levels_;
-  for (std::uint32_t k = 0; k < levels_; ++k) level_[k].read = level_[k].first;
-  if (end == node + 1) return;
-  SHODO_CHECK(levels_ < kDeepest);
-  const std::uint32_t first = levels_ > 0 ? level_[levels_ - 1].last : 0;
-  level_[levels_++] = {node, end, first, first, first};
-}
-
-/// The list that the blocks above have for j or for a node that holds it, the nearest first; null if there is none.
-const std::uint16_t* Sight::inherited(std::uint32_t j, std::uint32_t& count) {
-  for (std::uint32_t k = above_; k-- > 0;) {
-    Level& level = level_[k];
-    const auto node_at = [&](std::uint32_t at) { return left_[at] | std::uint32_t{left_[at + 1]} << 16; };
-    // Lists ascend by the nodes whose they are.
-    for (std::uint32_t at = level.read; at < level.last && node_at(at) <= j; at += 4u + left_[at + 3]) level.read = at;
-    if (level.read == level.last) continue;
-    const std::uint32_t first = node_at(level.read);
-    if (first > j || j >= first + left_[level.read + 2]) continue;
-    count = left_[level.read + 3];
-    return left_.data() + level.read + 4;
-  }
-  return nullptr;
-}
-
-void Sight::turn_to(std::uint32_t j, const Link& link, const Intersector& intersector) {
+  for (std::uint16_t& facet : recent_) facet = 0xffff;
+  guess_ = kNone;
+  between_ = 0xffff;
   if (!lists_) return;
-  while (parts_ > 0 && j >= part_[parts_ - 1].end) --parts_;
-  listed_ = 0;
-  if (!intersector.tested(link)) {
-    list_ = row_.data();
-  } else if (parts_ > 0) {
-    list_ = row_.data() + part_[parts_ - 1].first;
-    listed_ = part_[parts_ - 1].count;
-  } else {
-    list_ = inherited(j, listed_);
-    if (list_ == nullptr) listed_ = static_cast<std::uint32_t>(facets_.size());
+  LatticeBox around;
+  for (const Facet& facet : facets_) around.include(facet.box);
+  masks_.start(static_cast<std::uint32_t>(facets_.size()), around);
+  for (std::uint32_t f = 0; f < facets_.size(); ++f) {
+    if (!intersector.blocks(f, LightSet::kAmbient)) continue;
+    kinds_[f] = kind_of(*geometry_, facets_[f]);
+    masks_.add(f, facets_[f].box);
+    lean_[f] = lean_box(facets_[f].box);
   }
 }
 
-void Sight::split(std::uint32_t j, std::uint32_t end_j, const LatticeBox& box_j, bool leave) {
-  if (!lists_) return;
-  const std::uint32_t nodes = end_j - j;
-  if (leave) {
-    Level& level = level_[above_];
-    if ((list_ != nullptr && listed_ <= kShort) || level.last + 4 + listed_ > kListWords || nodes > 0xffff) return;
-    std::uint16_t* to = left_.data() + level.last;
-    to[0] = static_cast<std::uint16_t>(j);
-    to[1] = static_cast<std::uint16_t>(j >> 16);
-    to[2] = static_cast<std::uint16_t>(nodes);
-    to[3] = static_cast<std::uint16_t>(collect(LeanShaft(box_, box_j), to + 4));
-    if (list_ == nullptr || 4u * to[3] <= 3 * listed_) level.last += 4u + to[3];  // else parts do as well with this one
-    return;
-  }
-  const std::uint32_t first = parts_ > 0 ? part_[parts_ - 1].first + part_[parts_ - 1].count : 0;
-  if (listed_ <= kShort || first + listed_ > kListWords || parts_ == kDeepest) return;
-  const std::uint32_t count = collect(LeanShaft(box_, box_j), row_.data() + first);
-  if (list_ == nullptr || 4 * count <= 3 * listed_) part_[parts_++] = {end_j, first, count};
-}
-
+/// What stood between two nodes of late is tried first.
 bool Sight::clear(const LatticeBox& a, const LatticeBox& b) {
-  if (!lists_) {
-    const LeanShaft shaft(a, b);
-    return !any_facet(*geometry_, [&](const LatticeBox& facet) { return !shaft.misses(facet); });
+  if (!tested_) return true;
+  LeanShaft shaft(a, b);
+  if (!lists_) return !any_facet(*geometry_, [&](const LatticeBox& facet) { return !shaft.misses(facet); });
+  const auto stands = [&](std::uint32_t f) { return !shaft.misses(facets_[f].box); };
+  if (between_ < facets_.size() && stands(between_)) return false;
+  for (const std::uint32_t f : recent_) {
+    if (f < facets_.size() && stands(f)) return false;
   }
-  paired_ = listed_ == 0 ? 0 : collect(LeanShaft(a, b), pair_.data());
+  return !masks_.visit(a, b, [&](std::uint32_t f) {
+    if (!stands(f)) return false;
+    between_ = static_cast<std::uint16_t>(f);
+    return true;
+  });
+}
+
+bool Sight::list(const LatticeBox& a, const LatticeBox& b) {
+  if (!lists_) return clear(a, b);
+  guess_ = kNone;
+  paired_ = 0;
+  if (!tested_) return true;
+  LeanShaft shaft(a, b);
+  masks_.visit(a, b, [&](std::uint32_t f) {
+    if (!shaft.misses(facets_[f].box)) pair_[paired_++] = static_cast<std::uint16_t>(f);
+    return false;
+  });
   return paired_ == 0;
 }
 
-/// Ends are on opposite sides of a flat facet's plane.
+bool Sight::list_unless_blocked(const LatticePoint& p, const LatticePoint& q, const LatticeBox& a,
+                                const LatticeBox& b) {
+  if (!lists_ || !tested_) return list(a, b);
+  std::uint32_t tests = 0;
+  guess_ = recent_blocker(LeanSegment(p, q), p, q, tests);
+  if (guess_ == kNone) return list(a, b);
+  from_ = a;
+  to_ = b;
+  return false;
+}
+
 bool Sight::hits(std::uint32_t f, const LatticePoint& p, const LatticePoint& q) const {
   const Facet& facet = facets_[f];
   const std::uint32_t kind = kinds_[f];
@@ -255,6 +157,8 @@ bool Sight::hits(std::uint32_t f, const LatticePoint& p, const LatticePoint& q) 
     const std::uint32_t axis = (kind & 3) - 1, u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
     const std::int32_t from[3] = {p.x, p.y, p.z}, to[3] = {q.x, q.y, q.z};
     const std::int32_t whole = to[axis] - from[axis], part = facet.box.low[axis] - 1 - from[axis];
+    // The ends must be on opposite sides of its plane.
+    if (whole > 0 ? part <= 0 || part >= whole : part >= 0 || part <= whole) return false;
     for (const std::uint32_t k : {u, v}) {
       const std::int64_t run = std::int64_t{part} * (to[k] - from[k]);
       const std::int64_t low = std::int64_t{facet.box.low[k] - from[k]} * whole;
@@ -269,21 +173,76 @@ bool Sight::hits(std::uint32_t f, const LatticePoint& p, const LatticePoint& q) 
   return false;
 }
 
+std::uint32_t Sight::object_of(std::uint32_t facet) const {
+  return facet == kNone ? kNone : geometry_->triangles[facets_[facet].first].object;
+}
+
+/// One of the last blockers that blocks the segment, or kNone.
+std::uint32_t Sight::recent_blocker(const LeanSegment& segment, const LatticePoint& p, const LatticePoint& q,
+                                    std::uint32_t& tests) const {
+  for (const std::uint32_t f : recent_) {
+    if (f >= facets_.size() || !segment.may_meet(lean_[f])) continue;
+    tests += facets_[f].count;
+    if (hits(f, p, q)) return f;
+  }
+  return kNone;
+}
+
+void Sight::remember(std::uint32_t facet) {
+  std::uint32_t k = 0;
+  while (k + 1 < kRecent && recent_[k] != facet) ++k;
+  for (; k > 0; --k) recent_[k] = recent_[k - 1];
+  recent_[0] = static_cast<std::uint16_t>(facet);
+}
+
+bool Sight::meets(const LatticePoint& p, const LatticePoint& q) {
+  once_tests_ = 0;
+  once_found_ = kNone;
+  if (!lists_ || !tested_) return false;
+  const LeanSegment segment(p, q);
+  once_found_ = recent_blocker(segment, p, q, once_tests_);
+  if (once_found_ != kNone) return true;
+  return masks_.visit(box_of(p), box_of(q), [&](std::uint32_t f) {
+    if (!segment.may_meet(lean_[f])) return false;
+    once_tests_ += facets_[f].count;
+    if (!hits(f, p, q)) return false;
+    once_found_ = f;
+    return true;
+  });
+}
+
+bool Sight::settle(const LatticePoint& p, const LatticePoint& q, const Link& link, Intersector& intersector) {
+  if (!lists_) return intersector.blocked(p, q, link, Aim{});
+  intersector.count(link, once_tests_, object_of(once_found_));
+  if (once_found_ != kNone) remember(once_found_);
+  return once_found_ != kNone;
+}
+
 bool Sight::blocked(const LatticePoint& p, const LatticePoint& q, const Link& link, Intersector& intersector) {
   if (!lists_) return intersector.blocked(p, q, link, Aim{});
-  LatticeBox around;
-  around.include(p);
-  around.include(q);
+  const LeanSegment segment(p, q);
   std::uint32_t tests = 0, found = kNone;
-  for (std::uint32_t k = 0; k < paired_ && found == kNone; ++k) {
-    const std::uint16_t f = pair_[k];
+  const auto blocks = [&](std::uint32_t f) {
+    if (!segment.may_meet(lean_[f])) return false;
     tests += facets_[f].count;
-    if (apart(around, facets_[f].box) || !hits(f, p, q)) continue;
+    return hits(f, p, q);
+  };
+  if (guess_ != kNone) {
+    if (blocks(guess_)) {
+      found = guess_;
+    } else {
+      list(from_, to_);
+    }
+  }
+  for (std::uint32_t k = 0; found == kNone && k < paired_; ++k) {
+    const std::uint16_t f = pair_[k];
+    if (!blocks(f)) continue;
     found = f;
     pair_[k] = pair_[0];
     pair_[0] = f;
   }
-  intersector.count(link, tests, found == kNone ? kNone : geometry_->triangles[facets_[found].first].object);
+  intersector.count(link, tests, object_of(found));
+  if (found != kNone) remember(found);
   return found != kNone;
 }
 

@@ -4,7 +4,9 @@ namespace shodo {
 
 namespace {
 
-bool judges(const Rules& rules) { return rules.rule1 || rules.rule2 || rules.rule2_repeated; }
+bool judges(const Rules& rules) {
+  return features::kRules && (rules.rule1 || rules.rule2 || rules.rule2_repeated);
+}
 
 const double* reflectance_of(const Surfaces& surfaces, std::uint32_t node) {
   return surfaces.scene->materials[surfaces.mesh(node).material].diffuse.c;
@@ -79,7 +81,7 @@ void Sparsity::gather_blocks(Surfaces& surfaces) {
 }
 
 bool Sparsity::restore(Surfaces& surfaces, const DirectLight& direct, std::span<const double> ambient_lx) {
-  if (columns_dropped_ == 0 || now_ + 1u >= kGenerations) return false;
+  if (!drops_columns() || now_ + 1u >= kGenerations) return false;
   const bool all = now_ + 2u == kGenerations;
   const double least = surfaces.scene->display.min_cd_m2;
   std::uint32_t restored = 0;
@@ -105,7 +107,7 @@ bool Sparsity::restore(Surfaces& surfaces, const DirectLight& direct, std::span<
 
 double Sparsity::loss_bound(const Surfaces& surfaces, const DirectLight& direct,
                             std::span<const double> ambient_lx) const {
-  if (columns_dropped_ == 0) return 0;
+  if (!drops_columns()) return 0;
   const std::uint32_t channels = surfaces.scene->channels;
   double bound = 0;
   for (std::uint32_t c = 0; c < channels; ++c) {

@@ -37,18 +37,18 @@ class Sparsity {
   Status take(Arena& arena, Surfaces& surfaces, const DirectLight& direct, const Rules& rules);
   static std::uint64_t bytes(const Scene& scene, const Rules& rules);
 
-  bool receives(std::uint32_t node) const { return receives_.empty() || receives_[node] != 0; }
-  bool sends(std::uint32_t node) const { return born_.empty() || born_[node] != kNever; }
+  bool receives(std::uint32_t node) const { return !features::kRules || receives_.empty() || receives_[node] != 0; }
+  bool sends(std::uint32_t node) const { return !features::kRules || born_.empty() || born_[node] != kNever; }
   /// Rows of this generation are the last there are.
-  std::uint8_t now() const { return now_; }
+  std::uint8_t now() const { return features::kRules ? now_ : std::uint8_t{0}; }
   /// The generation whose rows hold the pair, or link; kNever if neither needs the other.
   std::uint8_t generation(std::uint32_t a, std::uint32_t b) const {
-    if (born_.empty()) return 0;
+    if (!features::kRules || born_.empty()) return 0;
     const std::uint8_t from_b = receives_[a] != 0 ? born_[b] : kNever, from_a = receives_[b] != 0 ? born_[a] : kNever;
     return from_b < from_a ? from_b : from_a;
   }
   /// Some column is left out: rows may rightly sum to less than 1.
-  bool drops_columns() const { return columns_dropped_ > 0; }
+  bool drops_columns() const { return features::kRules && columns_dropped_ > 0; }
 
   /// Puts back what became bright (rule 2+); false if there is nothing to do. `ambient_lx` by patch and channel.
   bool restore(Surfaces& surfaces, const DirectLight& direct, std::span<const double> ambient_lx);

@@ -68,7 +68,7 @@ SampleSet cached_set(const Options& options) {
 
 /// ambient/sight.h has no use for boxes of meshes.
 std::size_t mesh_boxes(const Scene& scene, const Options& options) {
-  return options.flags == FlagMode::kOff || options.rules.blocks ? 0 : scene.meshes.size();
+  return !features::aims(options.flags) || features::blocks(options.rules) ? 0 : scene.meshes.size();
 }
 
 bool take_all(Arena& arena, const Scene& scene, const Options& options, std::uint32_t shapes, SurfacesKeep keep,

@@ -69,7 +69,9 @@ struct Surfaces {
   double flat = 0;                       // heights below it are rounding, scene units
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(patch_at.size()); }
-  bool is_block(std::uint32_t position) const { return patch_at[position] >= scene->patch_count; }
+  bool is_block(std::uint32_t position) const {
+    return features::kTrees && patch_at[position] >= scene->patch_count;
+  }
   const Block& block(std::uint32_t position) const { return blocks[patch_at[position] - scene->patch_count]; }
   Block& block(std::uint32_t position) { return blocks[patch_at[position] - scene->patch_count]; }
   /// The node after the last that is part of this one.

@@ -65,6 +65,9 @@ void look(const Surfaces& surfaces, const PatchEnds& i, const PatchEnds& j, bool
 
 struct Sums {
   double all = 0, free = 0;
+  double least = 1, most = 0;  // of what panes let through, 0 where blocked
+
+  bool mixed() const { return least < most; }
 };
 
 /// Adds the weights of all pairs of samples, and of those with a free segment; `alike`: all weights the same.
@@ -77,6 +80,24 @@ void weigh(const Surfaces& surfaces, const PatchEnds& i, const PatchEnds& j, boo
       if (!(weight > 0)) continue;
       sums.all += weight;
       if (!tester.blocked(i.at[k], j.at[l], link)) sums.free += weight;
+    }
+  }
+}
+
+/// As weigh(), each free segment by what panes let through.
+void weigh_through_panes(const Surfaces& surfaces, const PatchEnds& i, const PatchEnds& j, bool alike,
+                         const Tester& tester, Sums& sums) {
+  const Link link = link_between(surfaces, i.position, j.position);
+  for (std::size_t k = 0; k < i.set.size(); ++k) {
+    for (std::size_t l = 0; l < j.set.size(); ++l) {
+      const double weight = alike ? 1 : kernel(surfaces, i, k, j, l);
+      if (!(weight > 0)) continue;
+      sums.all += weight;
+      const double part =
+          tester.blocked(i.at[k], j.at[l], link) ? 0 : tester.intersector.panes().pass(i.at[k], j.at[l]);
+      sums.free += weight * part;
+      if (part < sums.least) sums.least = part;
+      if (part > sums.most) sums.most = part;
     }
   }
 }
@@ -155,6 +176,45 @@ VisibleFraction weighted_fraction(const Surfaces& surfaces, const PairEnds& ends
   return {0, 0};
 }
 
+LatticeBox box_of(const PatchEnds& ends) {
+  LatticeBox box;
+  for (std::size_t k = 0; k < ends.set.size(); ++k) box.include(ends.at[k]);
+  return box;
+}
+
+/// Whether panes may weaken a segment: asked of the points, so that the answer is the same with any aims.
+bool panes_between(const PairEnds& ends, const Intersector& intersector) {
+  if (!intersector.panes().any()) return false;
+  LatticeBox i = box_of(ends.few_i), j = box_of(ends.few_j);
+  if (!ends.one_set()) {
+    i.include(box_of(ends.many_i));
+    j.include(box_of(ends.many_j));
+  }
+  return intersector.panes().between(i, j);
+}
+
+/// The weighted mean of what arrives; `mixed` if segments differ.
+VisibleFraction fraction_through_panes(const Surfaces& surfaces, const PairEnds& ends, const Tester& tester,
+                                       bool& mixed) {
+  for (const bool alike : {false, true}) {
+    Sums sums;
+    if (ends.one_set()) {
+      weigh_through_panes(surfaces, ends.few_i, ends.few_j, alike, tester, sums);
+    } else {
+      weigh_through_panes(surfaces, ends.few_i, ends.many_j, alike, tester, sums);
+      weigh_through_panes(surfaces, ends.many_i, ends.few_j, alike, tester, sums);
+    }
+    if (!(sums.all > 0)) continue;
+    mixed = sums.mixed();
+    const double value = sums.mixed() ? sums.free / sums.all : sums.most;
+    const std::size_t segments = ends.one_set() ? ends.few_i.set.size() * ends.few_j.set.size()
+                                                : ends.few_i.set.size() * ends.many_j.set.size() * 2;
+    return {value, mixed ? value * (1 - value) / static_cast<double>(segments) : 0};
+  }
+  mixed = false;
+  return {0, 0};
+}
+
 }  // namespace
 
 VisibleFraction visible_fraction(const Surfaces& surfaces, std::uint32_t i, std::uint32_t j, bool crossing,
@@ -166,12 +226,20 @@ VisibleFraction visible_fraction(const Surfaces& surfaces, std::uint32_t i, std:
   // The row's samples are those of the denser sets if there are any, else of the first.
   const PairEnds ends = place_ends(surfaces, i, j, first, densify ? at_i : dense_i, at_j);
   Tester tester{intersector, sight, {}};
+  const bool panes = panes_between(ends, intersector);
   if (sight == nullptr) {
     tester.aim = aim_between(surfaces, ends, first.few == surfaces.cached_set ? &wide : nullptr, intersector);
-    if (tester.aim.clear()) return {1, 0};
+    if (tester.aim.clear() && !panes) return {1, 0};
+  }
+  if (panes) {
+    bool mixed;
+    const VisibleFraction found = fraction_through_panes(surfaces, ends, tester, mixed);
+    if (!mixed || !densify) return found;
   }
   Seen seen;
-  if (ends.one_set()) {
+  if (panes) {
+    seen.free = seen.blocked = true;
+  } else if (ends.one_set()) {
     look(surfaces, ends.few_i, ends.few_j, crossing, tester, seen);
   } else {
     look(surfaces, ends.few_i, ends.many_j, crossing, tester, seen);
@@ -185,6 +253,7 @@ VisibleFraction visible_fraction(const Surfaces& surfaces, std::uint32_t i, std:
   const SegmentSets dense = segment_sets(options.segments_mixed);
   const PairEnds dense_ends = place_ends(surfaces, i, j, dense, dense_i, dense_j);
   if (sight == nullptr) tester.aim = aim_between(surfaces, dense_ends, nullptr, intersector);
+  if (bool mixed; panes) return fraction_through_panes(surfaces, dense_ends, tester, mixed);
   return weighted_fraction(surfaces, dense_ends, tester);
 }
 

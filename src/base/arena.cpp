@@ -77,7 +77,7 @@ Status Arena::refused() const {
   Status status;
   status.code = StatusCode::kMemory;
   status.bytes_needed = wanted_;
-  TextBuilder text(status.message, sizeof status.message);
+  MessageText text(status.message, sizeof status.message);
   text.add("the memory budget is too small: ").add(wanted_name_).add(" needs ");
   text.add(static_cast<std::uint64_t>(wanted_)).add(" bytes in all, the budget has ");
   text.add(static_cast<std::uint64_t>(capacity_));

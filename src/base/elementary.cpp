@@ -10,8 +10,6 @@ namespace {
 
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
-double magnitude(double x) { return x < 0 ? 0.0 - x : x; }
-
 /// c0 + c1 z + c2 z^2 + ..., from the last coefficient down.
 template <class... Rest>
 inline double polynomial(double z, double c0, Rest... rest) {

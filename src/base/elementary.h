@@ -32,6 +32,9 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Correctly rounded by IEEE 754; not a number below 0.
 inline double square_root(double x) { return __builtin_sqrt(x); }
 
+/// |x|: the sign bit cleared, no comparison.
+constexpr double magnitude(double x) { return __builtin_fabs(x); }
+
 /// Radians in [-pi/2, pi/2]; relative error below 3e-16.
 double arctangent(double x);
 

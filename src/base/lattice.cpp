@@ -4,8 +4,6 @@ namespace shodo {
 
 namespace {
 
-double magnitude(double x) { return x < 0 ? -x : x; }
-
 /// x rounded to the nearest integer, halves away from zero; |x| < 2^52.
 std::int64_t round_away(double x) {
   const double m = magnitude(x);

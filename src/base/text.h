@@ -10,6 +10,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "base/features.h"
+
 namespace shodo {
 
 class TextBuilder {
@@ -44,5 +46,18 @@ class TextBuilder {
   std::size_t size_ = 0;  // without the zero byte
   bool truncated_ = false;
 };
+
+/// Takes any text and drops it.
+class NoText {
+ public:
+  NoText(char*, std::size_t) {}
+  template <class T>
+  NoText& add(const T&) {
+    return *this;
+  }
+};
+
+/// What a Status says is wrong, where the library is built with messages.
+using MessageText = std::conditional_t<features::kMessages, TextBuilder, NoText>;
 
 }  // namespace shodo

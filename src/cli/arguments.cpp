@@ -14,12 +14,13 @@ namespace shodo {
 
 namespace {
 
-constexpr unsigned kForRender = 1, kForMap = 2, kForCheck = 4, kForReport = 8;
+constexpr unsigned kForRender = 1, kForMap = 2, kForCheck = 4, kForReport = 8, kForDifference = 16;
 constexpr unsigned kForOne = kForRender | kForMap | kForCheck;  // a report has its own list of flags and rules
 constexpr unsigned kForAll = kForOne | kForReport;
 constexpr unsigned kForPicture = kForRender | kForReport | kForCheck;
 constexpr unsigned kForTables = kForRender | kForMap;
 constexpr unsigned kForOutput = kForTables | kForReport;
+constexpr unsigned kForEvery = kForAll | kForDifference;
 
 struct CommandName {
   std::string_view name;
@@ -35,6 +36,8 @@ constexpr CommandName kCommands[] = {
     {"map", Command::kMap, kForMap, "map SCENE -o DIR", "the illuminance maps, a PFM file a mesh"},
     {"report", Command::kReport, kForReport, "report SCENE... -o DIR",
      "the paper's table, and speed against error: HTML, Markdown, CSV"},
+    {"difference", Command::kDifference, kForDifference, "difference A B [-o FILE.png|.ppm]",
+     "two pictures (PPM) or maps (PFM): mean, root mean square, largest; FILE shows where"},
     {"check", Command::kCheck, kForCheck, "check SCENE",
      "what will be modelled, the lattice step, the memory it takes"},
 };
@@ -158,6 +161,38 @@ bool take_tiers(std::string_view text, Arguments& a) {
   return text == "near" || number_in(text, 1e-9, 1, a.options.tiers);
 }
 
+constexpr double kMostLux = 1e9;
+
+bool take_false_colour(std::string_view text, Arguments& a) {
+  a.measured.false_colour = true;
+  std::string_view low, high;
+  LuxScale& scale = a.measured.scale;
+  return text == "auto" || (split(text, ',', low, high) && number_in(low, 0, kMostLux, scale.low) &&
+                            number_in(high, 1e-3, kMostLux, scale.high) && scale.low < scale.high);
+}
+
+bool take_isolux(std::string_view text, Arguments& a) {
+  constexpr std::size_t kMost = 100;
+  a.measured.isolux = true;
+  if (text == "auto") return true;
+  std::string_view item, rest = text;
+  for (bool more = true; more;) {
+    item = rest;
+    more = split(rest, ',', item, rest);
+    double level = 0;
+    std::vector<double>& levels = a.measured.levels;
+    if (!number_in(item, 1e-3, kMostLux, level) || levels.size() == kMost) return false;
+    if (!levels.empty() && level <= levels.back()) return false;
+    levels.push_back(level);
+  }
+  return true;
+}
+
+bool take_show(std::string_view text, Arguments& a) {
+  a.measured.show = text == "patches" ? MeasuredOptions::Show::kPatches : MeasuredOptions::Show::kSubPatches;
+  return text == "patches" || text == "sub-patches";
+}
+
 bool take_text(std::string_view text, std::string& value) {
   value = text;
   return !text.empty();
@@ -176,7 +211,7 @@ struct OptionRule {
 };
 
 constexpr OptionRule kOptions[] = {
-    {"-o", "FILE|DIR", kForOutput, "a name", "where the picture, the maps or the report go",
+    {"-o", "FILE|DIR", kForOutput | kForDifference, "a name", "where the picture, the maps or the report go",
      [](std::string_view t, Arguments& a) { return take_text(t, a.output); }},
     {"--memory", "SIZE", kForAll, "bytes from 1 to 1024G, with K, M or G for their multiples",
      "budget for everything the library holds (8M)", take_memory},
@@ -200,6 +235,8 @@ constexpr OptionRule kOptions[] = {
      "segments a pair, first and where visibility is mixed (16,64)", take_segments},
     {"--scale-rows", "on|off", kForAll, "on or off", "rows of form factors made to sum to 1 where they should (on)",
      [](std::string_view t, Arguments& a) { return on_or_off(t, a.options.scale_rows); }},
+    {"--mirror-light", "on|off", kForAll, "on or off", "mirrors send the light of sources on, once (off)",
+     [](std::string_view t, Arguments& a) { return on_or_off(t, a.options.mirror_light); }},
     {"--interpolate", "on|off", kForAll, "on or off", "ambient light interpolated between patches (on)",
      [](std::string_view t, Arguments& a) { return on_or_off(t, a.options.interpolate); }},
     {"--row-values", "16|64", kForAll, "16 or 64", "bits of a stored form factor (16)",
@@ -216,19 +253,28 @@ constexpr OptionRule kOptions[] = {
        a.options.camera = t;
        return !t.empty();
      }},
+    {"--false-colour", "auto|LOW,HIGH", kForRender, "auto, or two numbers of lux, LOW from 0, HIGH above it",
+     "illuminance as colours, with a legend: a logarithmic scale, or from LOW 0 a linear one", take_false_colour},
+    {"--isolux", "auto|LIST", kForRender, "auto, or up to 100 ascending numbers of lux with commas between",
+     "lines of equal illuminance with their values, over the picture or its false colours", take_isolux},
+    {"--show", "patches|sub-patches", kForRender, "patches or sub-patches", "their borders, over the picture",
+     take_show},
     {"--csv", "FILE", kForTables, "a name, or - for standard output", "a table, one line a sub-patch",
      [](std::string_view t, Arguments& a) { return take_text(t, a.csv); }},
     {"--stats", "FILE", kForTables, "a name, or - for standard output",
      "what was counted and how long it took, as JSON",
      [](std::string_view t, Arguments& a) { return take_text(t, a.statistics); }},
-    {"--quiet", "", kForAll, "", "no progress, no warnings",
+    {"--summary", "FILE", kForTables, "a name, or - for standard output",
+     "illuminance of each object and measuring plane: mean, least, greatest, uniformity, as CSV",
+     [](std::string_view t, Arguments& a) { return take_text(t, a.summary); }},
+    {"--quiet", "", kForEvery, "", "no progress, no warnings",
      [](std::string_view, Arguments& a) { return a.quiet = true; }},
-    {"--help", "", kForAll, "", "this text",
+    {"--help", "", kForEvery, "", "this text",
      [](std::string_view, Arguments& a) {
        a.command = Command::kHelp;
        return true;
      }},
-    {"--version", "", kForAll, "", "the version",
+    {"--version", "", kForEvery, "", "the version",
      [](std::string_view, Arguments& a) {
        a.command = Command::kVersion;
        return true;
@@ -257,12 +303,25 @@ class Words {
   void read_word(std::string_view word) {
     if (word.starts_with("-") && word != "-") return read_option(word);
     if (command_ == nullptr) return read_command(word);
-    if (!arguments_.scene.empty() && command_->command != Command::kReport) {
+    if (command_->command == Command::kDifference) {
+      read_file(word);
+    } else if (!arguments_.scene.empty() && command_->command != Command::kReport) {
       mistake_ = "expected one scene, found " + quoted(word) + " after " + quoted(arguments_.scene);
     } else if (word.empty() || word == "-") {
       mistake_ = "expected the name of a scene file, found " + quoted(word);
     } else {
       if (arguments_.scene.empty()) arguments_.scene = word;
+      arguments_.scenes.emplace_back(word);
+    }
+  }
+
+  /// One of the two that are compared.
+  void read_file(std::string_view word) {
+    if (arguments_.scenes.size() == 2) {
+      mistake_ = "difference: expected two files, found " + quoted(word) + " after " + quoted(arguments_.scenes[1]);
+    } else if (word.empty() || word == "-") {
+      mistake_ = "difference: expected the name of a file, found " + quoted(word);
+    } else {
       arguments_.scenes.emplace_back(word);
     }
   }
@@ -273,7 +332,7 @@ class Words {
     if (at != std::end(kCommands)) {
       command_ = at;
     } else {
-      mistake_ = "expected a command (render, map, report or check), found " + quoted(word);
+      mistake_ = "expected a command (render, map, report, difference or check), found " + quoted(word);
     }
   }
 
@@ -308,7 +367,7 @@ class Words {
   /// What only all words together can tell.
   void check() {
     if (command_ == nullptr) {
-      mistake_ = "expected a command (render, map, report or check), found none";
+      mistake_ = "expected a command (render, map, report, difference or check), found none";
       return;
     }
     arguments_.command = command_->command;
@@ -318,10 +377,21 @@ class Words {
         return;
       }
     }
-    if (arguments_.scene.empty()) {
+    if (command_->command == Command::kDifference) {
+      check_difference();
+    } else if (arguments_.scene.empty()) {
       mistake_ = std::string(command_->name) + ": expected a scene file, found none";
     } else if ((command_->bit & kForOutput) != 0) {
       check_outputs();
+    }
+  }
+
+  void check_difference() {
+    const Arguments& a = arguments_;
+    if (a.scenes.size() < 2) {
+      mistake_ = "difference: expected two files, found " + (a.scenes.empty() ? "none" : quoted(a.scenes[0]) + " alone");
+    } else if (!a.output.empty() && !has_ending(a.output, ".png") && !has_ending(a.output, ".ppm")) {
+      mistake_ = "-o: expected a name that ends in .png or .ppm, found " + quoted(a.output);
     }
   }
 
@@ -336,9 +406,14 @@ class Words {
       mistake_ = "-o: expected a name that ends in .png or .ppm, found " + quoted(a.output);
     } else if (!is_picture && a.output == "-") {
       mistake_ = "-o: expected the name of a folder, found '-'";
-    } else if ((!a.csv.empty() && (a.csv == a.statistics || a.csv == a.output)) ||
-               (!a.statistics.empty() && a.statistics == a.output)) {
-      mistake_ = "two outputs have the same name " + quoted(a.csv == a.output ? a.csv : a.statistics);
+    } else {
+      const std::string names[] = {a.output, a.csv, a.statistics, a.summary};
+      for (std::size_t k = 0; k < 4; ++k) {
+        for (std::size_t before = 0; before < k; ++before) {
+          if (names[k].empty() || names[k] != names[before]) continue;
+          mistake_ = "two outputs have the same name " + quoted(names[k]);
+        }
+      }
     }
   }
 

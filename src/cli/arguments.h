@@ -5,21 +5,24 @@
 #include <string>
 #include <vector>
 
+#include "cli/measured_options.h"
 #include "shodo/options.h"
 
 namespace shodo {
 
-enum class Command : std::uint8_t { kNone, kRender, kMap, kReport, kCheck, kHelp, kVersion };
+enum class Command : std::uint8_t { kNone, kRender, kMap, kReport, kDifference, kCheck, kHelp, kVersion };
 
 struct Arguments {
   Command command = Command::kNone;
   std::string scene;                // the first
-  std::vector<std::string> scenes;  // all of them: report takes more than one
+  std::vector<std::string> scenes;  // all of them: report takes more than one, difference two files
   std::string output;              // -o: a picture's file, the maps' or the report's folder
   std::uint64_t memory = 8 << 20;  // bytes
   Options options;                 // options.camera views the words of the command line
   std::string csv;                 // "-": standard output; empty: none
   std::string statistics;
+  std::string summary;
+  MeasuredOptions measured;
   bool quiet = false;
 };
 

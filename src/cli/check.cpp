@@ -54,6 +54,10 @@ std::string model_text(const Model& model) {
       "channels:  " + std::string(s.channels == 1 ? "1, everything is grey" : "3, red green blue") + "\n";
   text += "model:     " + count(s.objects, "object", "objects") + ", " + count(s.meshes, "mesh", "meshes") + ", ";
   text += count(s.patches, "patch", "patches") + ", " + count(s.sub_patches, "sub-patch", "sub-patches") + "\n";
+  if (s.planes != 0) {
+    text += "planes:    " + count(s.planes, "measures", "measure") + ", besides; ";
+    text += count(s.plane_sub_patches, "sub-patch", "sub-patches") + "\n";
+  }
   text += "lights:    " + lights_text(model.scene) + "\n";
   text += "cameras:   " + cameras_text(model.scene) + "\n";
   const double metres = s.lattice_step * model.scene.metres_per_unit;
@@ -79,7 +83,8 @@ std::string plan_text(const MemoryPlan& plan) {
       stages += plan.stage[k] != 0 && part.in(k) ? static_cast<char>('1' + k) : ' ';
     }
     text += "           " + right(grouped(part.bytes), 11) + "  " + stages + "  ";
-    text += part.name + std::string(": ") + part.formula + "\n";
+    const PartText what = plan_part_text(part.part);
+    text += what.name + std::string(": ") + what.formula + "\n";
   }
   return text;
 }

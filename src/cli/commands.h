@@ -8,6 +8,7 @@ namespace shodo {
 int render(const Arguments& arguments);
 int map(const Arguments& arguments);
 int report(const Arguments& arguments);
+int difference(const Arguments& arguments);
 int check(const Arguments& arguments);
 
 }  // namespace shodo

@@ -45,6 +45,7 @@ int run(int count, char** words) {
     case Command::kRender: return render(arguments);
     case Command::kMap: return map(arguments);
     case Command::kReport: return report(arguments);
+    case Command::kDifference: return difference(arguments);
     case Command::kCheck: return check(arguments);
     case Command::kNone: break;
   }

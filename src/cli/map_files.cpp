@@ -40,13 +40,28 @@ const char* kind_name(MeshKind kind) {
   return "";
 }
 
+std::string pfm_header(const Model& model, std::uint32_t width, std::uint32_t height) {
+  return std::string(model.scene.channels == 1 ? "Pf\n" : "PF\n") + std::to_string(width) + " " +
+         std::to_string(height) + "\n-1.0\n";
+}
+
+/// A measuring plane's map.
+std::string plane_pfm(const Model& model, const Plane& plane) {
+  const std::uint32_t channels = model.scene.channels;
+  std::string bytes = pfm_header(model, plane.width(), plane.height());
+  const std::size_t first = std::size_t{plane.first_sub_patch} * channels;
+  for (std::size_t k = first; k < first + std::size_t{plane.sub_patch_count()} * channels; ++k) {
+    add_little_endian(bytes, model.planes.direct_lx[k] + model.planes.ambient_lx[k]);
+  }
+  return bytes;
+}
+
 }  // namespace
 
 std::string pfm(const Model& model, std::uint32_t m) {
   const Mesh& mesh = model.scene.meshes[m];
   const std::uint32_t channels = model.scene.channels, width = mesh.map_width(), height = mesh.map_height();
-  std::string bytes = channels == 1 ? "Pf\n" : "PF\n";
-  bytes += std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
+  std::string bytes = pfm_header(model, width, height);
   bytes.reserve(bytes.size() + std::size_t{4} * channels * width * height);
   for (std::uint32_t v = 0; v < height; ++v) {
     for (std::uint32_t u = 0; u < width; ++u) {
@@ -78,6 +93,15 @@ std::string map_index(const Model& model) {
     }
     text += "\n";
   }
+  for (std::uint32_t p = 0; p < scene.planes.size(); ++p) {
+    const Plane& plane = scene.planes[p];
+    const std::uint32_t number = static_cast<std::uint32_t>(scene.meshes.size()) + p;
+    text += map_name(number) + "," + std::string(plane.name) + "," + std::to_string(number) + ",plane,";
+    for (const std::uint32_t n : {plane.width(), plane.height(), plane.nu, plane.nv, plane.su, plane.sv}) {
+      text.append(1, ',').append(std::to_string(n));
+    }
+    text += "\n";
+  }
   return text;
 }
 
@@ -85,6 +109,11 @@ bool write_maps(const Model& model, OutputFolder& folder, FileError& error) {
   for (std::uint32_t m = 0; m < model.scene.meshes.size(); ++m) {
     if (interrupt_asked()) return false;
     if (!folder.write_file(map_name(m), pfm(model, m), error)) return false;
+  }
+  for (std::uint32_t p = 0; p < model.scene.planes.size(); ++p) {
+    if (interrupt_asked()) return false;
+    const std::string name = map_name(static_cast<std::uint32_t>(model.scene.meshes.size()) + p);
+    if (!folder.write_file(name, plane_pfm(model, model.scene.planes[p]), error)) return false;
   }
   return folder.write_file("index.csv", map_index(model), error);
 }

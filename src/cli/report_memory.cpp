@@ -18,10 +18,13 @@ std::string_view next_part(std::string_view& text, char end) {
   return part;
 }
 
+/// Counts are exact up to here.
+constexpr double kLargestCount = 0x1p53;
+
 bool number(std::string_view text, double& value) {
   const DecimalResult found = parse_decimal(text);
   value = found.value;
-  return found.error == DecimalError::none && value >= 0;
+  return found.error == DecimalError::none && value >= 0 && value <= kLargestCount;
 }
 
 /// Options may hold commas: they are what stands between the first column and the last eight.

@@ -94,6 +94,13 @@ int Run::draw(const LineSink& sink, const FileError& error) {
   return status.done() ? 0 : tell(status);
 }
 
+int Run::see(const SeenSink& sink) {
+  watch_.enter(Stage::kPicture);
+  const Status status = shodo::see(*model_, watch_.progress(), sink);
+  watch_.finish();
+  return status.done() ? 0 : tell(status);
+}
+
 int Run::find_camera() {
   std::string names;
   for (const Camera& camera : model_->scene.cameras) {

@@ -26,6 +26,8 @@ class Run {
   int solve();
   /// `error`: what the sink stopped for, if it did.
   int draw(const LineSink& sink, const FileError& error);
+  /// What each sample of the picture sees.
+  int see(const SeenSink& sink);
   /// Whether the camera asked for is there, before minutes are spent.
   int find_camera();
 

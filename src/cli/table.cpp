@@ -41,6 +41,22 @@ std::string table_line(const Model& model, const std::string& mesh_columns, cons
   return line + "\n";
 }
 
+/// A sub-patch of plane p, which is numbered after the meshes.
+std::string plane_line(const Model& model, std::uint32_t p, std::uint32_t local) {
+  const Plane& plane = model.scene.planes[p];
+  const Piece piece = plane_sub_patch(plane, local);
+  const Vec3 area = piece.vector_area();
+  std::string line = std::string(plane.name) + "," + std::to_string(model.scene.meshes.size() + p) + "," +
+                     std::to_string(local % plane.width()) + "," + std::to_string(local / plane.width());
+  add_vector(line, model.scene.origin + piece.centre());
+  add_vector(line, normalised(area));
+  add_number(line, length(area));
+  const std::size_t sub_patch = plane.first_sub_patch + std::size_t{local};
+  add_light(line, model.planes.direct_lx, sub_patch, model.scene.channels);
+  add_light(line, model.planes.ambient_lx, sub_patch, model.scene.channels);
+  return line + "\n";
+}
+
 }  // namespace
 
 bool write_table(const Model& model, OutputFile& file, FileError& error) {
@@ -56,6 +72,12 @@ bool write_table(const Model& model, OutputFile& file, FileError& error) {
       const std::uint32_t patch = patch_of_sub_patch(mesh, local);
       if (make_patch(model.scene, model.geometry, m, patch).dropped != 0) continue;
       if (!file.write(table_line(model, columns, mesh, local), error)) return false;
+    }
+  }
+  for (std::uint32_t p = 0; p < model.scene.planes.size(); ++p) {
+    if (interrupt_asked()) return false;
+    for (std::uint32_t local = 0; local < model.scene.planes[p].sub_patch_count(); ++local) {
+      if (!file.write(plane_line(model, p, local), error)) return false;
     }
   }
   return true;

@@ -6,6 +6,7 @@
 // ambient stage wants the patches only, so sub-patches lie in spare blocks; if it takes those they are lit once more.
 #include "light/direct.h"
 
+#include "light/mirror_light.h"
 #include "light/receiver.h"
 #include "light/sources.h"
 #include "light/sub_patch_light.h"
@@ -98,8 +99,14 @@ struct PatchSums {
 
 class DirectStage {
  public:
-  DirectStage(const Scene& scene, const Geometry& geometry, Sources& sources, DirectLight& direct)
-      : scene_(scene), geometry_(geometry), sources_(sources), direct_(direct) {}
+  DirectStage(const Scene& scene, const Geometry& geometry, Sources& sources, MirrorLight& mirrors,
+              DirectLight& direct)
+      : scene_(scene),
+        geometry_(geometry),
+        sources_(sources),
+        mirrors_(mirrors),
+        direct_(direct),
+        coloured_(sources.intersector().panes().coloured()) {}
 
   /// False if the progress callback asked to stop.
   bool light_patch(std::uint32_t mesh, std::uint32_t local, const Progress& progress);
@@ -112,7 +119,9 @@ class DirectStage {
   const Scene& scene_;
   const Geometry& geometry_;
   Sources& sources_;
+  MirrorLight& mirrors_;
   DirectLight& direct_;
+  bool coloured_;  // panes: every channel by itself
   std::uint32_t done_ = 0;
   FlatFront front_;  // of the patch at work
 };
@@ -159,7 +168,13 @@ void DirectStage::light_one(std::uint32_t m, std::uint32_t cell, std::uint32_t l
   if (!(area > 0)) return;
   Receiver receiver = receiver_of(scene_, m, cell, piece);
   receiver.front = front_;
-  const SubPatchLight light = light_sub_patch(sources_, receiver, piece, is_thin(geometry_, piece));
+  SubPatchLight light = light_sub_patch(sources_, receiver, piece, is_thin(geometry_, piece));
+  for (std::uint32_t c = 1; c < scene_.channels && coloured_; ++c) {
+    sources_.intersector().set_channel(c);
+    light.lux[c] = light_sub_patch(sources_, receiver, piece, is_thin(geometry_, piece)).lux[c];
+    if (c == 2) sources_.intersector().set_channel(0);
+  }
+  if (mirrors_.any() && !light.hidden) mirrors_.add(receiver, piece, is_thin(geometry_, piece), light.lux);
   const std::uint32_t index = mesh.first_sub_patch + local;
   if (light.hidden) {
     if (!direct_.hidden.empty()) direct_.hidden[index] = 1;
@@ -223,8 +238,10 @@ Status light_directly(const Scene& scene, const Geometry& geometry, std::span<co
   Sources sources(scene, geometry, intersector, options.tiers);
   const Status status = sources.prepare(arena);
   if (!status.done()) return status;
+  MirrorLight mirrors(sources);
+  if (options.mirror_light && !mirrors.take(arena)) return arena.refused();
   if (first) take_spare_sub_patches(scene, arena, direct);
-  DirectStage stage(scene, geometry, sources, direct);
+  DirectStage stage(scene, geometry, sources, mirrors, direct);
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
     for (std::uint32_t local = 0; local < scene.meshes[m].patch_count(); ++local) {
       const std::uint32_t patch = scene.meshes[m].first_patch + local;

@@ -48,6 +48,7 @@ struct FaceLight::Face {
   std::uint32_t faces;  // of its light
   Tier tier = Tier::kNear;
   bool crossing = true;  // one side may lie partly behind the other's plane
+  bool panes = false;    // a pane may be between
   double factor[kMostInGroup] = {};
   double largest = 0;
 
@@ -173,7 +174,7 @@ void FaceLight::look_at_leaves(const SubPatchView& view, const ReceiverGroup& gr
   Leaves leaves(piece, grid, view, emitter.radius);
   do {
     const EmitterEnd end{grid.point_at(leaves.centre()), leaves.weight()};
-    const LatticePoint at = aim.clear() ? LatticePoint{} : segment_end(*scene_, *geometry_, emitter, end.point);
+    const LatticePoint at = aim.clear() && !face.panes ? LatticePoint{} : segment_end(*scene_, *geometry_, emitter, end.point);
     const Aim narrow = aim.facets.size() * group.count > kFewTests ? narrowed(group, {&at, 1}, aim) : aim;
     for (std::uint32_t k = 0; k < group.count; ++k) {
       if (!(face.factor[k] > 0)) continue;
@@ -181,7 +182,7 @@ void FaceLight::look_at_leaves(const SubPatchView& view, const ReceiverGroup& gr
       if (!(weight > 0)) continue;
       all[k] += weight;
       const bool free = narrow.clear() || !intersector_->blocked(group.lattice[k], at, link, narrow);
-      if (free) arrives[k] += weight;
+      if (free) arrives[k] += face.panes ? weight * intersector_->panes().pass(group.lattice[k], at) : weight;
     }
   } while (leaves.next());
   for (std::uint32_t k = 0; k < group.count; ++k) seen.part[k] = all[k] > 0 ? arrives[k] / all[k] : -1;
@@ -223,7 +224,7 @@ void FaceLight::look_at_ends(const SubPatchView& view, const ReceiverGroup& grou
   }
   for (std::uint32_t k = 0; k < group.count; ++k) {
     seen.part[k] = tested[k] == 0 ? -1 : free[k] == tested[k] ? 1 : 0;
-    if (free[k] == 0 || free[k] == tested[k]) continue;
+    if (free[k] == 0 || (free[k] == tested[k] && !face.panes)) continue;
     double all = 0, arrives = 0;
     bit = 0;
     for (std::uint32_t t = 0; t < face.tiles(); ++t) {
@@ -232,7 +233,9 @@ void FaceLight::look_at_ends(const SubPatchView& view, const ReceiverGroup& grou
         if ((tested[k] >> bit & 1) == 0) continue;
         const double weight = weight_of(k, tile.first + e);
         all += weight;
-        if ((free[k] >> bit & 1) != 0) arrives += weight;
+        if ((free[k] >> bit & 1) == 0) continue;
+        const LatticePoint& end = emitters_->lattice_ends[tile.first + e];
+        arrives += face.panes ? weight * intersector_->panes().pass(group.lattice[k], end) : weight;
       }
     }
     seen.part[k] = arrives / all;
@@ -278,7 +281,7 @@ FaceLook FaceLight::look(const SubPatchView& view, const ReceiverGroup& group, c
                          std::uint32_t count, const LatticeBox& ends, const LatticeBox& whole) const {
   FaceLook look;
   Aim aim, others;  // `others`: without the polyhedron's own facets
-  bool aimed = false;
+  bool aimed = false, panes = false;
   for (std::uint32_t e = first; e < first + count; ++e) {
     Face face{&emitters_->faces[e], count};
     face.tier = tier_of(view, face);
@@ -288,13 +291,15 @@ FaceLook FaceLight::look(const SubPatchView& view, const ReceiverGroup& group, c
     find_factors(view, group, face);
     if (!aimed) {
       const bool leaves = is_split(view, *face.emitter);  // then the light has no other face
+      panes = intersector_->panes().any() && intersector_->panes().between(group.box, leaves ? whole : ends);
       aim = others = aims_->towards(face.emitter->light, link, group.box, leaves ? whole : ends, whole);
       if (!face.emitter->is_area() && aim.facets.size() > 0) {
         const std::uint32_t own = scene_->meshes[face.emitter->mesh].object;
         others.facets = aim.facets.first(intersector_->others_first(aim, own));
       }
     }
-    look.clear = aim.clear();
+    look.clear = aim.clear() && !panes;
+    face.panes = panes;
     aimed = true;
     const bool own_miss = others.facets.size() < aim.facets.size() &&
                           own_facets_miss(*geometry_, *face.emitter, {group.lattice, group.count});

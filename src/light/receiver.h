@@ -21,6 +21,7 @@ struct Receiver {
   Vec3 normal;  // unit
   Vec3 anchor;  // a point of the plane
   FlatFront front;  // of the cell on the lattice
+  std::span<const Triangle> own;  // a measuring plane's, which is no cell of a mesh; else none
 
   /// Scene units; positive in front.
   double height(const Vec3& point) const { return dot(normal, point - anchor); }

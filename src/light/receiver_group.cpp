@@ -23,6 +23,7 @@ std::uint32_t half_of(bool triangle, std::uint32_t sample) {
 
 Sample sample_at(const Scene& scene, const Geometry& geometry, const Receiver& receiver, const Vec3& point) {
   if (receiver.front.flat()) return {point, receiver.front.move(odd_point(geometry.lattice, point))};
+  if (!receiver.own.empty()) return {point, sample_point(geometry.lattice, receiver.own, point)};
   return {point, sample_point(scene, geometry, receiver.mesh, receiver.cell, point)};
 }
 

@@ -137,6 +137,8 @@ Received Sources::receive_point(std::uint32_t l, const Receiver& receiver, const
   const bool blocked =
       !aim.clear() && intersector_->blocked(sample.lattice, geometry_->light_points[l], link(l, receiver), aim);
   if (!blocked) received.visible = 1;
+  const Panes& panes = intersector_->panes();
+  if (!blocked && panes.any()) received.visible = panes.pass(sample.lattice, geometry_->light_points[l]);
   return received;
 }
 
@@ -149,6 +151,8 @@ Received Sources::receive_sun(std::uint32_t l, const Receiver& receiver, const S
   const bool blocked =
       !aim.clear() && intersector_->ray_blocked(sample.lattice, sources_[l].to_sun, link(l, receiver), aim);
   if (!blocked) received.visible = 1;
+  const Panes& panes = intersector_->panes();
+  if (!blocked && panes.any()) received.visible = panes.pass_along(sample.lattice, sources_[l].to_sun);
   return received;
 }
 

@@ -51,6 +51,7 @@ class Sources {
   const Scene& scene() const { return *scene_; }
   const Geometry& geometry() const { return *geometry_; }
   Intersector& intersector() const { return *intersector_; }
+  const Emitters& emitters() const { return emitters_; }
   /// How often a point light was within one lattice step of a sample.
   std::uint32_t clamped() const { return clamped_; }
 

@@ -1,13 +1,13 @@
 #include "map/parabolic.h"
 
+#include "base/elementary.h"
+
 namespace shodo {
 
 namespace {
 
 double lesser(double a, double b) { return a < b ? a : b; }
 double greater(double a, double b) { return a > b ? a : b; }
-double magnitude(double a) { return a < 0 ? -a : a; }
-
 /// Before the first of three cells, going on by their parabola.
 double before(double a, double b, double c) { return 3 * a - 3 * b + c; }
 

@@ -38,10 +38,13 @@ bool set_edge(const EdgeValue& value, std::int64_t rows, ActiveEdge& edge) {
   edge.size = magnitude(value.cx);
   const std::int64_t x = ceil_divide(m, edge.size);
   const std::int64_t x_step = ceil_divide(Int128(m_step), edge.size);
-  if (magnitude(x) >= kCrossingLimit || magnitude(x_step) >= kCrossingLimit / rows) return false;
+  if (magnitude(x) >= kCrossingLimit || magnitude(x_step) >= kCrossingLimit / rows) {
+    edge = ActiveEdge();
+    return false;
+  }
   edge.x = static_cast<std::int32_t>(x);
   edge.x_step = static_cast<std::int32_t>(x_step);
-  edge.rest = static_cast<std::int64_t>((multiply(x, edge.size) - m).low);
+  edge.below = static_cast<std::int64_t>((multiply(x - 1, edge.size) - m).low);
   edge.rest_step = x_step * edge.size - m_step;
   return true;
 }
@@ -61,75 +64,87 @@ LinearValue fixed(const WideLinear& value, unsigned bits, std::int64_t depth) {
           floor_divide(value.cy << bits, depth)};
 }
 
+/// Which of the triangle's sides edge[k] is.
+unsigned side_of(const ActiveTriangle& active, unsigned k) { return active.sides >> 2 * k & 3; }
+
+/// Whether a coordinate changes by less than 2^15 sub-patches over the triangle.
+bool is_narrow(const std::int32_t* at) {
+  constexpr std::int64_t kMost = (std::int64_t{1} << 23) - 256;
+  return magnitude(std::int64_t{at[1]} - at[0]) < kMost && magnitude(std::int64_t{at[2]} - at[0]) < kMost;
+}
+
 }  // namespace
-
-void activate(const DrawnTriangle& drawn, std::uint32_t triangle, const SampleGrid& grid, std::int32_t row,
-              ActiveTriangle& active) {
-  SeenTriangle seen;
-  see_triangle(drawn, grid.eye, seen);
-  active = ActiveTriangle();
-  active.triangle = triangle;
-  active.front = seen.front;
-  active.last_row = rows_of(seen, grid).last;
-  const LatticeVector start = grid.direction(0, row);
-  EdgeValue value[3];
-  for (int k = 0; k < 3; ++k) {
-    value[k] = edge_value(seen.edge[k], grid, start);
-    const std::uint8_t bit = static_cast<std::uint8_t>(1u << k);
-    if (value[k].cx == 0) continue;  // along the rows: rows_of has seen to it
-    if (value[k].cx > 0) active.lower_edges |= bit;
-    if (value[k].cx < 0) active.upper_edges |= bit;
-    if (!set_edge(value[k], active.last_row - row + 1, active.edge[k])) active.slow_edges |= bit;
-  }
-  // The weight of a corner is the edge opposite to it: corner 1 has edge 2, corner 2 has edge 0.
-  const EdgeValue normal = edge_value(seen.normal, grid, start);
-  active.inverse_depth = fixed({normal.c, Int128(normal.cx), Int128(normal.cy)}, kInverseDepthBits, seen.depth);
-  const auto map = [&](const std::int32_t* at) {
-    return fixed(combine(value[2], std::int64_t{at[1]} - at[0], value[0], std::int64_t{at[2]} - at[0]), kMapBits - 8,
-                 seen.depth);
-  };
-  active.map_u = map(drawn.u);
-  active.map_v = map(drawn.v);
-  active.wide = !fits(active.inverse_depth, grid) || !fits(active.map_u, grid) || !fits(active.map_v, grid);
-  if (active.wide) active.inverse_depth = active.map_u = active.map_v = LinearValue();
-}
-
-void move_to_next_row(ActiveTriangle& active) {
-  const std::uint32_t stepped = (active.lower_edges | active.upper_edges) & ~std::uint32_t{active.slow_edges};
-  for (unsigned k = 0; k < 3; ++k) {
-    if ((stepped >> k & 1) == 0) continue;
-    ActiveEdge& edge = active.edge[k];
-    edge.x += edge.x_step;
-    edge.rest += edge.rest_step;
-    if (edge.rest >= edge.size) {
-      edge.rest -= edge.size;
-      --edge.x;
-    }
-  }
-  active.inverse_depth.c += active.inverse_depth.cy;
-  active.map_u.c += active.map_u.cy;
-  active.map_v.c += active.map_v.cy;
-}
 
 void find_span(const DrawnTriangle& drawn, const SampleGrid& grid, std::int32_t row, ActiveTriangle& active) {
   const std::int32_t columns = static_cast<std::int32_t>(grid.columns);
   SeenTriangle seen;
   if (active.slow_edges != 0) see_triangle(drawn, grid.eye, seen);
   std::int32_t x0 = 0, x1 = columns;
-  for (unsigned k = 0; k < 3; ++k) {
-    const bool lower = (active.lower_edges >> k & 1) != 0;
-    if (!lower && (active.upper_edges >> k & 1) == 0) continue;
+  for (unsigned k = 0; k < active.edges; ++k) {
     std::int32_t x = active.edge[k].x;
     if ((active.slow_edges >> k & 1) != 0) {
-      const EdgeValue value = edge_value(seen.edge[k], grid, grid.direction(0, row));
+      const EdgeValue value = edge_value(seen.edge[side_of(active, k)], grid, grid.direction(0, row));
       const std::int64_t crossing = ceil_divide(value.c, -value.cx);
       x = crossing < 0 ? 0 : crossing > columns ? columns : static_cast<std::int32_t>(crossing);
     }
-    if (lower && x > x0) x0 = x;
-    if (!lower && x < x1) x1 = x;
+    if (k < active.lower_edges && x > x0) x0 = x;
+    if (k >= active.lower_edges && x < x1) x1 = x;
   }
-  active.x0 = x0 < x1 ? x0 : columns;
-  active.x1 = x0 < x1 ? x1 : columns;
+  active.x0 = x0 < columns ? x0 : columns;
+  active.x1 = x1;
+}
+
+void activate(const DrawnTriangle& drawn, std::uint32_t triangle, const SampleGrid& grid, std::int32_t row,
+              std::uint16_t last_row, ActiveTriangle& active) {
+  SeenTriangle seen;
+  see_triangle(drawn, grid.eye, seen);
+  active = ActiveTriangle();
+  active.triangle = triangle;
+  active.front = seen.front;
+  active.last_row = last_row;
+  const LatticeVector start = grid.direction(0, row);
+  EdgeValue value[3];
+  for (int k = 0; k < 3; ++k) value[k] = edge_value(seen.edge[k], grid, start);
+  // Sides along the rows are none here: rows_of has seen to them.
+  const auto add = [&](unsigned side) {
+    active.sides = static_cast<std::uint8_t>(active.sides | side << 2 * active.edges);
+    ++active.edges;
+  };
+  for (unsigned k = 0; k < 3; ++k) {
+    if (value[k].cx > 0) add(k);
+  }
+  active.lower_edges = active.edges;
+  for (unsigned k = 0; k < 3; ++k) {
+    if (value[k].cx < 0) add(k);
+  }
+  for (unsigned k = 0; k < active.edges; ++k) {
+    const bool steps = set_edge(value[side_of(active, k)], last_row - row + 1, active.edge[k]);
+    if (!steps) active.slow_edges = static_cast<std::uint8_t>(active.slow_edges | 1u << k);
+  }
+  find_span(drawn, grid, row, active);
+  const EdgeValue normal = edge_value(seen.normal, grid, start);
+  active.inverse_depth = fixed({normal.c, Int128(normal.cx), Int128(normal.cy)}, kInverseDepthBits, seen.depth);
+  active.wide = !fits(active.inverse_depth, grid);
+  if (active.wide) active.inverse_depth = LinearValue();
+}
+
+void place_map(const DrawnTriangle& carrier, const SampleGrid& grid, std::int32_t row, ActiveTriangle& active) {
+  SeenTriangle seen;
+  see_triangle(carrier, grid.eye, seen);
+  const LatticeVector start = grid.direction(0, row);
+  // The weight of a corner is the edge opposite to it: corner 1 has edge 2, corner 2 has edge 0.
+  const EdgeValue first = edge_value(seen.edge[2], grid, start), second = edge_value(seen.edge[0], grid, start);
+  const auto map = [&](const std::int32_t* at) {
+    return fixed(combine(first, std::int64_t{at[1]} - at[0], second, std::int64_t{at[2]} - at[0]), kMapBits - 8,
+                 seen.depth);
+  };
+  active.map_u = map(carrier.u);
+  active.map_v = map(carrier.v);
+  active.map_row = static_cast<std::uint16_t>(row);
+  active.has_map = true;
+  active.wide_map = active.wide || !fits(active.map_u, grid) || !fits(active.map_v, grid) || !is_narrow(carrier.u) ||
+                    !is_narrow(carrier.v);
+  if (active.wide_map) active.map_u = active.map_v = LinearValue();
 }
 
 MapPoint exact_map_point(const DrawnTriangle& drawn, const SampleGrid& grid, std::int32_t x, std::int32_t row) {

@@ -182,14 +182,15 @@ std::uint16_t display_steps(double v) {
 }
 
 std::uint16_t luminance_steps(const Display& display, double luminance_cd_m2) {
-  return display_steps((luminance_cd_m2 - display.min_cd_m2) / (display.max_cd_m2 - display.min_cd_m2));
+  const double v = (luminance_cd_m2 - display.min_cd_m2) / (display.max_cd_m2 - display.min_cd_m2);
+  return display_steps(display.roll && v > 0.5 ? 1 - 0.25 / v : v);
 }
 
-void fill_display_table(std::span<std::uint8_t> level) {
+void fill_display_table(std::span<std::uint8_t> level, double black) {
   // Each level starts where sRGB passes the middle between it and the one before: 255 powers instead of 8193.
   std::uint32_t step = 0;
   for (std::uint32_t k = 0; k <= 255; ++k) {
-    const double end = k == 255 ? 2.0 * kWhite : kWhite * linear_of_srgb((k + 0.5) / 255);
+    const double end = k == 255 ? 2.0 * kWhite : kWhite * (black + (1 - black) * linear_of_srgb((k + 0.5) / 255));
     for (; step <= kWhite && static_cast<double>(step) < end; ++step) level[step] = static_cast<std::uint8_t>(k);
   }
 }

@@ -2,13 +2,13 @@
 
 #include "base/text.h"
 #include "picture/display.h"
+#include "picture/optics.h"
 #include "picture/shade.h"
+#include "picture/texels.h"
 #include "picture/view.h"
 #include "picture/visible_lines.h"
 
 namespace shodo {
-
-namespace {
 
 const Camera* find_camera(const Scene& scene, std::string_view name) {
   if (name.empty()) return scene.cameras.empty() ? nullptr : &scene.cameras[0];
@@ -21,13 +21,22 @@ const Camera* find_camera(const Scene& scene, std::string_view name) {
 Status no_camera(const Scene& scene, std::string_view name) {
   Status status;
   status.code = StatusCode::kUsage;
-  TextBuilder text(status.message, sizeof status.message);
+  MessageText text(status.message, sizeof status.message);
   if (scene.cameras.empty()) {
     text.add("expected a camera in the scene, found none");
   } else {
     text.add("expected the name of a camera of the scene (the first is ").add(scene.cameras[0].name);
     text.add("), found ").add(name);
   }
+  return status;
+}
+
+namespace {
+
+Status wrong_size() {
+  Status status;
+  status.code = StatusCode::kUsage;
+  MessageText(status.message, sizeof status.message).add("expected a picture of 1 to 16384 pixels each way");
   return status;
 }
 
@@ -43,19 +52,31 @@ struct Picture {
   SampleGrid grid;
   DisplayMaps maps;
   VisibleLines lines;
+  bool with_optics = false;
+  double black = 0;                // with optics: the display's MIN
+  PictureOptics optics;
+  Scene shown;                     // with optics: the scene on their display
   std::span<std::uint8_t> level;   // sRGB of display steps
-  std::span<std::uint32_t> sums;   // [pixel * channels + channel]: display steps of a pixel's samples
+  std::span<std::uint32_t> sums;   // [pixel * channels + channel]: display steps of a pixel's samples, if it has more
   std::span<std::uint8_t> rgb;
 };
+
+/// Sums of a line of pixels: none where a sample is a pixel and shows one surface.
+std::size_t sums_of(const SampleGrid& grid, std::uint32_t width, std::uint32_t channels, bool with_optics) {
+  return grid.shift == 0 && !with_optics ? 0 : std::size_t{width} * channels;
+}
 
 bool prepare(Picture& picture, const IlluminanceMaps& maps, const Options& options, Arena& arena) {
   const Scene& scene = *picture.scene;
   if (!build_display_maps(scene, maps, arena, picture.maps)) return false;
   if (!arena.take("display table", kWhite + 1, picture.level)) return false;
-  if (!arena.take("line of samples", std::size_t{options.width} * scene.channels, picture.sums)) return false;
+  if (!arena.take("line of samples", sums_of(picture.grid, options.width, scene.channels, picture.with_optics),
+                  picture.sums)) return false;
   if (!arena.take("line of pixels", std::size_t{3} * options.width, picture.rgb)) return false;
-  fill_display_table(picture.level);
-  return picture.lines.start(scene, *picture.geometry, picture.grid, arena);
+  const Display& display = scene.display;
+  fill_display_table(picture.level, picture.with_optics ? picture.black / display.max_cd_m2 : 0);
+  if (!picture.lines.start(scene, *picture.geometry, picture.grid, arena)) return false;
+  return !picture.with_optics || picture.optics.start(scene, *picture.geometry, picture.maps, picture.grid, arena);
 }
 
 MapTexels texels_of(const Picture& picture, const Mesh& mesh) {
@@ -69,32 +90,87 @@ MapTexels texels_of(const Picture& picture, const Mesh& mesh) {
   return texels;
 }
 
-void add_light(Picture& picture, const Light& light, const VisibleSpan& span) {
-  const std::uint32_t channels = picture.scene->channels;
-  for (std::uint32_t c = 0; c < channels; ++c) {
+void show_light(const Picture& picture, const Light& light, const VisibleSpan& span, const SampleRow& samples) {
+  std::uint32_t shown[3] = {0, 0, 0};
+  for (std::uint32_t c = 0; c < samples.channels; ++c) {
     const std::uint32_t steps = luminance_steps(picture.scene->display, light.strength * light.colour.c[c]);
-    const std::uint32_t shown = steps < kWhite ? steps : kWhite;
-    for (std::int32_t x = span.x0; x < span.x1; ++x) {
-      picture.sums[(static_cast<std::uint32_t>(x) >> picture.grid.shift) * channels + c] += shown;
+    shown[c] = steps < kWhite ? steps : kWhite;
+  }
+  show_plain(samples, span.x0, span.x1, shown);
+}
+
+/// Adjacent spans of one map; empty if x0 = x1.
+struct MapSpan {
+  std::int32_t x0 = 0, x1 = 0;
+  std::uint32_t carrier = kNone;
+  const ActiveTriangle* active = nullptr;
+};
+
+void show_span(const Picture& picture, const MapSpan& span, std::uint32_t row, const SampleRow& samples) {
+  const DrawnTriangle& carrier = picture.geometry->drawn[span.carrier];
+  const MapTexels texels = texels_of(picture, picture.scene->meshes[carrier.mesh]);
+  MapWalk walk(*span.active, carrier, picture.grid, static_cast<std::int32_t>(row), span.x0, span.x1);
+  for (MapPiece piece; walk.next(piece);) show_piece(texels, piece, samples);
+}
+
+/// Samples x0 .. x1 - 1 see a triangle first that does more than reflect diffusely, or nothing (kNone).
+void show_optics(Picture& picture, std::uint32_t triangle, std::int32_t x0, std::int32_t x1, std::uint32_t row,
+                 const SampleRow& samples) {
+  picture.optics.add(triangle, x0, x1, row, picture.sums);
+  if (samples.shift != 0) return;
+  for (auto x = static_cast<std::uint32_t>(x0); x < static_cast<std::uint32_t>(x1); ++x) {
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      samples.rgb[3 * x + c] = samples.level[samples.sums[x * samples.channels + (samples.channels == 1 ? 0 : c)]];
     }
   }
 }
 
-/// Adds one row of samples to the sums of its pixels; backs are black.
-void add_row(Picture& picture, std::uint32_t row) {
-  picture.lines.begin_row(row);
-  for (VisibleSpan span; picture.lines.next(span);) {
-    if (!span.front) continue;
+/// Adds one row of samples to the picture; nothing and backs are black.
+template <bool kOptics>
+void show_row(Picture& picture, std::uint32_t row) {
+  const SampleRow samples{picture.level.data(), picture.rgb.data(), picture.sums.data(), picture.grid.shift,
+                          picture.scene->channels};
+  VisibleLines& lines = picture.lines;
+  lines.begin_row(row);
+  MapSpan map;
+  std::int32_t end = 0;
+  const auto empty_until = [&](std::int32_t x) {
+    if (map.x0 < map.x1) show_span(picture, map, row, samples);
+    map = {};
+    if (x <= end) return;
+    if constexpr (kOptics) {
+      show_optics(picture, kNone, end, x, row, samples);
+    } else {
+      show_plain(samples, end, x, {0, 0, 0});
+    }
+  };
+  for (VisibleSpan span; lines.next(span);) {
     const DrawnTriangle& drawn = picture.geometry->drawn[span.triangle];
-    if (drawn.light != kNone) {
-      add_light(picture, picture.scene->lights[drawn.light], span);
+    if constexpr (kOptics) {
+      const bool takes = picture.optics.takes(drawn, span.front);
+      if (takes || !span.front) {
+        empty_until(span.x0);
+        end = span.x1;
+        takes ? show_optics(picture, span.triangle, span.x0, span.x1, row, samples)
+              : show_plain(samples, span.x0, span.x1, {0, 0, 0});
+        continue;
+      }
+    }
+    if (!span.front) continue;
+    const bool is_light = drawn.light != kNone;
+    if (!is_light && span.x0 == map.x1 && map.carrier == lines.map_of(span.triangle)) {
+      end = map.x1 = span.x1;
       continue;
     }
-    const MapTexels texels = texels_of(picture, picture.scene->meshes[drawn.mesh]);
-    MapWalk walk(picture.lines.active(span.active), drawn, picture.grid, static_cast<std::int32_t>(row), span.x0,
-                 span.x1);
-    for (MapPiece piece; walk.next(piece);) add_piece(texels, piece, picture.grid.shift, picture.sums);
+    empty_until(span.x0);
+    end = span.x1;
+    if (is_light) {
+      show_light(picture, picture.scene->lights[drawn.light], span, samples);
+    } else {
+      map = {span.x0, span.x1, lines.map_of(span.triangle), &lines.active(span.active)};
+    }
   }
+  empty_until(static_cast<std::int32_t>(picture.grid.columns));
 }
 
 /// The mean over each pixel's samples in sRGB; a grey scene's one channel three times.
@@ -123,18 +199,29 @@ Status draw_picture(const Scene& scene, const Geometry& geometry, const Illumina
                     const Progress& progress, Arena& arena, const LineSink& sink) {
   const Camera* camera = find_camera(scene, options.camera);
   if (camera == nullptr) return no_camera(scene, options.camera);
+  constexpr std::uint32_t kMost = 16384;  // four rows of samples a pixel: 16 bits number them
+  if (options.width - 1 >= kMost || options.height - 1 >= kMost) return wrong_size();
   const ArenaScratch scratch(arena);
   Picture picture;
   picture.scene = &scene;
   picture.geometry = &geometry;
+  if (PictureOptics::used(scene)) {
+    picture.with_optics = true;
+    picture.shown = scene;
+    picture.shown.display = PictureOptics::display_of(scene);
+    picture.black = scene.display.min_cd_m2;
+    picture.scene = &picture.shown;
+  }
   picture.grid = grid_of(*camera, geometry.lattice, options);
   if (!prepare(picture, maps, options, arena)) return arena.refused();
   const std::uint32_t rows = 1u << picture.grid.shift;
   for (std::uint32_t y = 0; y < options.height; ++y) {
     if (!progress.go_on(Stage::kPicture, y, options.height)) return interrupted();
     for (std::uint32_t& sum : picture.sums) sum = 0;
-    for (std::uint32_t row = y * rows; row < (y + 1) * rows; ++row) add_row(picture, row);
-    finish_line(picture, options.width);
+    for (std::uint32_t row = y * rows; row < (y + 1) * rows; ++row) {
+      picture.with_optics ? show_row<true>(picture, row) : show_row<false>(picture, row);
+    }
+    if (picture.grid.shift != 0) finish_line(picture, options.width);
     if (sink.line != nullptr && !sink.line(sink.context, y, picture.rgb)) return interrupted();
   }
   if (!progress.go_on(Stage::kPicture, options.height, options.height)) return interrupted();
@@ -147,8 +234,10 @@ std::uint64_t picture_bytes(const Scene& scene, const Geometry& geometry, const 
   const SampleGrid grid = grid_of(*camera, geometry.lattice, options);
   std::uint64_t filling = 0;
   for (const Mesh& mesh : scene.meshes) filling = mesh.sub_patch_count() > filling ? mesh.sub_patch_count() : filling;
-  const std::uint64_t lines = rounded_up(kWhite + 1) + rounded_up(4 * std::uint64_t{options.width} * scene.channels) +
-                              rounded_up(3 * std::uint64_t{options.width}) + VisibleLines::bytes(scene, geometry, grid);
+  const std::size_t sums = sums_of(grid, options.width, scene.channels, PictureOptics::used(scene));
+  const std::uint64_t lines = rounded_up(kWhite + 1) + rounded_up(4 * std::uint64_t{sums}) +
+                              rounded_up(3 * std::uint64_t{options.width}) + VisibleLines::bytes(scene, geometry, grid) +
+                              PictureOptics::bytes(scene, geometry);
   return rounded_up(2 * std::uint64_t{scene.sub_patch_count} * scene.channels) +
          (rounded_up(filling) > lines ? rounded_up(filling) : lines);
 }

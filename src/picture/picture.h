@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "base/arena.h"
 #include "map/illuminance_map.h"
@@ -18,14 +19,18 @@
 
 namespace shodo {
 
-/// Draws the camera's view. Errors: kMemory, kInterrupted; kUsage for a camera that the scene doesn't have.
+/// The first for an empty name; null if there is none, and why.
+const Camera* find_camera(const Scene& scene, std::string_view name);
+Status no_camera(const Scene& scene, std::string_view name);
+
+/// Draws the camera's view. Errors: kMemory, kInterrupted; kUsage for a camera that the scene doesn't have, or a size.
 Status draw_picture(const Scene& scene, const Geometry& geometry, const IlluminanceMaps& maps, const Options& options,
                     const Progress& progress, Arena& arena, const LineSink& sink);
 
 /// What draw_picture takes of the arena, exactly, each block rounded up to 8 bytes; 0 if there is no such camera.
 ///
 ///   2 sub_patches channels + max(sub-patches of the largest mesh,
-///   8193 + (4 channels + 3) width + 4 rows + 4 drawn + (sizeof(ActiveTriangle) + 8) active)
+///   8193 + (4 channels + 3) width + 4 rows + 10 drawn + (sizeof(ActiveTriangle) + 16) active)
 ///
 /// rows: of samples. active: the most triangles that touch one of 128 bands of rows; one pass over all triangles
 /// finds it.

@@ -38,8 +38,8 @@ RowRange rows_between_corners(const SeenTriangle& seen, const SampleGrid& grid) 
   };
   for (int k = 0; k < 3; ++k) {
     if (corner[k].depth <= 0) continue;
-    widen(clamped_row(ceil_divide(corner[k].row, corner[k].depth), grid.rows),
-          clamped_row(floor_divide(corner[k].row, corner[k].depth), grid.rows));
+    const std::int32_t row = clamped_row(floor_divide(corner[k].row, corner[k].depth), grid.rows);
+    widen(row, row);
     for (int other = 0; other < 3; ++other) {
       if (corner[other].depth > 0) continue;
       const int way = row_at_infinity(corner[k], corner[other]);
@@ -87,7 +87,45 @@ Int128 area_measure(const DrawnTriangle& triangle) {
   return dot_wide(n, n);
 }
 
+/// A vector's direction, with components below 2^30.
+LatticePoint cut(const LatticeVector& v) {
+  unsigned shift = 0;
+  const auto fits = [&](std::int64_t c) {
+    c >>= shift;
+    return c < (std::int64_t{1} << 30) && c > -(std::int64_t{1} << 30);
+  };
+  while (!fits(v.x) || !fits(v.y) || !fits(v.z)) ++shift;
+  return {static_cast<std::int32_t>(v.x >> shift), static_cast<std::int32_t>(v.y >> shift),
+          static_cast<std::int32_t>(v.z >> shift)};
+}
+
 }  // namespace
+
+Frame::Frame(const SampleGrid& grid) : eye_(grid.eye) {
+  const LatticeVector right = grid.direction(grid.columns - 1, 0), bottom = grid.direction(0, grid.rows - 1);
+  inwards_[0] = cut(cross(grid.dy, grid.d0));
+  inwards_[1] = cut(cross(right, grid.dy));
+  inwards_[2] = cut(cross(grid.d0, grid.dx));
+  inwards_[3] = cut(cross(grid.dx, bottom));
+}
+
+bool Frame::leaves_out(const DrawnTriangle& triangle) const {
+  // What was cut off is below 1 in each component, and corners are within 2^21 of the eye.
+  constexpr std::int64_t kSurely = -3 * (std::int64_t{1} << 21);
+  LatticePoint corner[3];
+  for (int k = 0; k < 3; ++k) {
+    const LatticePoint& p = triangle.vertex[k];
+    corner[k] = {p.x - eye_.x, p.y - eye_.y, p.z - eye_.z};
+  }
+  for (const LatticePoint& n : inwards_) {
+    bool beyond = true;
+    for (int k = 0; k < 3 && beyond; ++k) {
+      beyond = product(n.x, corner[k].x) + product(n.y, corner[k].y) + product(n.z, corner[k].z) < kSurely;
+    }
+    if (beyond) return true;
+  }
+  return false;
+}
 
 bool see_triangle(const DrawnTriangle& triangle, const LatticePoint& eye, SeenTriangle& seen) {
   for (int k = 0; k < 3; ++k) seen.corner[k] = triangle.vertex[k] - eye;

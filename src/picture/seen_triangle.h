@@ -28,6 +28,18 @@ struct SeenTriangle {
 /// False if the eye lies in the triangle's plane: nothing is seen of it then.
 bool see_triangle(const DrawnTriangle& triangle, const LatticePoint& eye, SeenTriangle& seen);
 
+/// The four planes through the eye and the outer samples of a picture, by normals that point inwards, cut to 30 bits.
+class Frame {
+ public:
+  explicit Frame(const SampleGrid& grid);
+  /// True only if no sample can be of the triangle: all its corners lie beyond one of the planes.
+  bool leaves_out(const DrawnTriangle& triangle) const;
+
+ private:
+  LatticePoint eye_;
+  LatticePoint inwards_[4];
+};
+
 /// Rows from `first` to `last` can hold samples of a triangle; none if first > last.
 struct RowRange {
   std::int32_t first = 0;

@@ -1,45 +1,46 @@
-// What a visible span looks like (paper 2.4): perspective-correct map coordinates and bilinear lookup, in integers.
+// Where on its map a visible span lies (paper 2.4): perspective-correct map coordinates in integers.
 //
 // u and v over depth are linear along a line, so u itself is a quotient. It is found by division at the ends of
 // pieces of at most kPieceLength samples, and linearly between. With inverse depths z0 and z1 at the ends, the line
 // differs from the hyperbola by at most |u1 - u0| (r - 1) / (sqrt(r) + 1)^2 <= |u1 - u0| |z1 - z0| / (4 min z), r the
 // ratio of the greater z to the smaller: pieces are halved until that is at most 1/32 sub-patch; a piece of one
-// sample is a quotient itself.
+// sample is a quotient itself. A point costs one 32-bit division and a step of Newton's for 1 / z, right to 2^-28,
+// and a multiplication a coordinate.
 //
-// Approximate: rounding adds under 1/100 sub-patch, so coordinates are right to 1/16. Texel centres are sub-patch
-// centres; lookups clamp at the border of a map, or go round (Mesh::wraps_u). Weights have 8 bits.
+// Approximate: rounding adds under 1/100 sub-patch, so coordinates are right to 1/16.
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "picture/active_triangle.h"
-#include "picture/display.h"
-#include "picture/visible_lines.h"
 
 namespace shodo {
 
-inline constexpr std::int32_t kPieceLength = 32;
+inline constexpr std::int32_t kPieceLength = 128;
 inline constexpr std::int32_t kPieceTolerance = 4096 / 32;  // sub-patches 20.12
 
-/// Samples x .. x + length - 1; u and v in sub-patches, 20.12, at x, and a sample's step.
+/// Samples x .. x + length - 1, at most kPieceLength + 1: u and v in sub-patches at x, and a sample's step.
 struct MapPiece {
   std::int32_t x = 0, length = 0;
-  std::int32_t u = 0, v = 0, du = 0, dv = 0;
+  std::int32_t u = 0, v = 0;    // 20.12
+  std::int32_t du = 0, dv = 0;  // 16.16
 };
 
 /// Cuts a span into pieces, from left to right.
 class MapWalk {
  public:
+  /// The triangle's values must be those of the row (settle_map).
   MapWalk(const ActiveTriangle& active, const DrawnTriangle& drawn, const SampleGrid& grid, std::int32_t row,
-          std::int32_t x0, std::int32_t x1);
+          std::int32_t x0, std::int32_t x1)
+      : active_(&active), drawn_(&drawn), grid_(&grid), row_(row), x_(x0), end_(x1), start_(point(x0)) {}
 
   bool next(MapPiece& piece);
 
  private:
   struct Point {
     std::int32_t u, v;
-    std::int64_t inverse_depth;
+    std::uint32_t inverse_depth;  // 31 bits; so many
+    std::int32_t shift;           // were cut off
   };
   Point point(std::int32_t x) const;
   static bool straight(const Point& a, const Point& b);
@@ -48,20 +49,41 @@ class MapWalk {
   const DrawnTriangle* drawn_;
   const SampleGrid* grid_;
   std::int32_t row_, x_, end_;
+  Point start_;  // at x_
 };
 
-/// A mesh's part of the display maps.
-struct MapTexels {
-  const std::uint16_t* texel = nullptr;
-  std::int32_t width = 0, height = 0;
-  std::uint32_t channels = 1;
-  bool wraps_u = false;
-};
+inline bool MapWalk::straight(const Point& a, const Point& b) {
+  const Point& low = a.shift < b.shift ? a : b;
+  const Point& high = a.shift < b.shift ? b : a;
+  const std::int32_t apart = high.shift - low.shift;
+  const std::uint32_t cut = apart > 31 ? 0 : low.inverse_depth >> apart;
+  const std::uint32_t near = cut > high.inverse_depth ? cut : high.inverse_depth;
+  const std::uint32_t far = cut > high.inverse_depth ? high.inverse_depth : cut;
+  const auto size = [](std::int32_t d) { return static_cast<std::uint32_t>(d < 0 ? -d : d); };
+  const std::uint32_t du = size(a.u - b.u), dv = size(a.v - b.v);
+  // One unit for what the shift cuts off.
+  return std::uint64_t{du > dv ? du : dv} * (near - far + 1) <= std::uint64_t{4 * kPieceTolerance} * far;
+}
 
-/// Adds the display steps of a piece's samples, at most white each, to sums[(x >> shift) channels + channel].
-void add_piece(const MapTexels& map, const MapPiece& piece, std::uint32_t shift, std::span<std::uint32_t> sums);
-
-/// The value of a map at one point, 20.12; at most 65535.
-std::uint32_t map_value(const MapTexels& map, std::int32_t u, std::int32_t v, std::uint32_t channel);
+inline bool MapWalk::next(MapPiece& piece) {
+  if (x_ >= end_) return false;
+  piece = {x_, 1, start_.u, start_.v, 0, 0};
+  std::int32_t reach = end_ - x_ <= kPieceLength ? end_ - x_ - 1 : kPieceLength;
+  if (active_->wide_map && reach > 1) reach = 1;
+  Point end = start_;
+  for (; reach > 0; reach /= 2) {
+    end = point(x_ + reach);
+    if (reach == 1 || straight(start_, end)) break;
+  }
+  if (reach > 1) {
+    // The last piece has its end, others leave it to the next. Differences are below 2^27.
+    piece.length = x_ + reach + 1 == end_ ? reach + 1 : reach;
+    piece.du = (end.u - start_.u) * 8 / reach * 2;
+    piece.dv = (end.v - start_.v) * 8 / reach * 2;
+  }
+  x_ += piece.length;
+  start_ = end;
+  return true;
+}
 
 }  // namespace shodo

@@ -6,8 +6,6 @@ namespace shodo {
 
 namespace {
 
-double magnitude(double x) { return x < 0 ? -x : x; }
-
 double largest_component(const Vec3& a) {
   const double x = magnitude(a.x), y = magnitude(a.y), z = magnitude(a.z);
   const double xy = x > y ? x : y;

@@ -4,14 +4,15 @@
 // Bresenham with a division at the start only), which gives its span [x0, x1) of samples. Spans are swept from left to
 // right with the list of those that are open. Inverse depths are linear along the line, and so are their differences:
 // whoever wins at both ends of an interval wins all of it. So a span that starts is compared with the nearest one, at
-// both ends of what they share; all open spans are compared where the nearest one ends or was found to be overtaken.
+// both ends of what they share; all open spans are compared where the nearest one ends or was found to be overtaken:
+// with a guess, the span of the same plane that starts there or the one that was nearest before.
 //
 // Comparisons use 64-bit fixed point, inverse depth times 2^32, each at most 1 + columns + rows units below the
 // truth; where that doesn't decide, 192-bit integers do, and the stated ties (seen_triangle.h). Nothing else is
 // approximate, so each sample gets exactly the triangle that an exact ray would, and the order of `drawn` matters in
 // total ties only.
 //
-// Bytes: 4 a drawn triangle, 4 a row, 8 + sizeof(ActiveTriangle) a triangle that can be active at once; that number
+// Bytes: 10 a drawn triangle, 4 a row, 16 + sizeof(ActiveTriangle) a triangle that can be active at once; that number
 // is bounded by counting triangles in 128 bands of rows.
 #pragma once
 
@@ -43,34 +44,56 @@ class VisibleLines {
   /// The next span of the row, from left to right; false at its end. Samples between spans see nothing.
   bool next(VisibleSpan& span);
 
-  const ActiveTriangle& active(std::uint32_t index) const { return pool_[index]; }
+  /// With all its values for this row.
+  const ActiveTriangle& active(std::uint32_t index) {
+    ActiveTriangle& active = pool_[index];
+    settle_map(drawn_[map_of_[active.triangle]], grid_, static_cast<std::int32_t>(row_), active);
+    return active;
+  }
+  /// The triangle whose map it takes (map_plane.h).
+  std::uint32_t map_of(std::uint32_t triangle) const { return map_of_[triangle]; }
   std::uint32_t row() const { return row_; }
   /// Times that fixed point did not decide.
   std::uint64_t exact_comparisons() const { return exact_comparisons_; }
 
  private:
-  void enter(std::uint32_t triangle);
+  /// Where a span starts or ends, and its triangle's slot of the pool.
+  struct SpanEnd {
+    std::int32_t x = 0;
+    std::uint32_t slot = 0;
+  };
+
+  std::uint32_t link_rows(const Scene& scene);
   void sort_spans();
   void take_starts();
   void challenge(std::uint32_t slot);
+  void replace_best();
   void choose_nearest();
-  void limit_by_overtaking();
-  bool nearer(std::uint32_t a, std::uint32_t b, std::int32_t x);
-  std::int32_t overtaken(std::uint32_t by, std::int32_t last);
+  void limit_by_all();
+  void limit_by(const SpanEnd& other, const ActiveTriangle& best);
+  bool find_lead(const ActiveTriangle& a, const ActiveTriangle& b, std::int32_t x, std::int64_t& lead) const;
+  bool nearer(const ActiveTriangle& a, const ActiveTriangle& b, std::int32_t x);
+  bool is_nearer_exactly(const ActiveTriangle& a, const ActiveTriangle& b, std::int32_t x);
+  std::int32_t overtaken(const ActiveTriangle& by, const ActiveTriangle& best, std::int32_t last);
   std::int32_t next_start() const;
+  bool starts_here() const;
 
   std::span<const DrawnTriangle> drawn_;
   SampleGrid grid_;
   std::span<std::uint32_t> first_of_row_;    // head of the list of triangles that enter at a row; kNone: none
   std::span<std::uint32_t> next_in_row_;     // per drawn triangle
+  std::span<std::uint32_t> map_of_;          // per drawn triangle
+  std::span<std::uint16_t> last_row_;        // per drawn triangle that enters
   std::span<ActiveTriangle> pool_;
-  std::span<std::uint32_t> order_;           // slots of the pool: active_count_ in use, by x0; then the free ones
-  std::span<std::uint32_t> open_;            // slots of spans that have started, the ended ones among them
+  std::span<SpanEnd> order_;                 // all slots: active_count_ in use, by x0; then the free ones
+  std::span<SpanEnd> open_;                  // spans that have started, by their ends; ended ones among them
   std::uint32_t active_count_ = 0;
   std::uint32_t open_count_ = 0;
+  std::uint32_t wide_count_ = 0;             // active triangles that fixed point doesn't hold
   std::uint32_t position_ = 0;               // first of order_ that hasn't started
   std::uint32_t row_ = 0;
   std::uint32_t best_ = kNone;               // slot of the nearest open span
+  std::uint32_t next_best_ = kNone;          // slot that may be nearest when best_ isn't any more
   std::int32_t x_ = 0;
   std::int32_t until_ = 0;                   // best_ stays the nearest of the open spans for x_ <= x < until_
   std::int64_t tolerance_ = 0;               // of fixed point

@@ -175,6 +175,39 @@ bool fits(const Mesh& mesh, std::uint64_t patches, std::uint64_t sub_patches) {
 
 bool usable(double size) { return size >= 0 && size <= kLargestNumber; }
 
+bool too_many(const Mesh& mesh, const Wanted& which, Status& status, Wanted& wanted) {
+  status.code = StatusCode::kScene;
+  TextBuilder(status.message, sizeof status.message)
+      .add("expected at most 65535 pieces along an edge and 2^32 - 2 sub-patches in all, found ")
+      .add(mesh.nu).add(" x ").add(mesh.nv).add(" patches of ").add(mesh.su).add(" x ").add(mesh.sv)
+      .add(" sub-patches (65536 stands for more)");
+  wanted = which;
+  return false;
+}
+
+/// As those of a quad that stands there.
+bool decide_plane(Scene& scene, std::uint32_t p, const Options& options, double most, Status& status, Wanted& wanted) {
+  Plane& plane = scene.planes[p];
+  Scene alone = scene;
+  alone.vertices = plane.corners;
+  Mesh mesh;
+  mesh.object = kNone;
+  mesh.nu = plane.nu;
+  mesh.nv = plane.nv;
+  mesh.su = plane.su;
+  mesh.sv = plane.sv;
+  decide_patches(alone, options, most > 0 ? most : diagonal(alone) / kPatchesADiagonal, mesh);
+  if (mesh.nu <= kMostPieces && mesh.nv <= kMostPieces) decide_sub_patches(alone, options, mesh);
+  if (!fits(mesh, 0, scene.plane_sub_patch_count)) return too_many(mesh, {Wanted::Kind::kPlane, p}, status, wanted);
+  plane.nu = mesh.nu;
+  plane.nv = mesh.nv;
+  plane.su = mesh.su;
+  plane.sv = mesh.sv;
+  plane.first_sub_patch = scene.plane_sub_patch_count;
+  scene.plane_sub_patch_count += plane.sub_patch_count();
+  return true;
+}
+
 }  // namespace
 
 Status check_count_options(const Options& options) {
@@ -182,7 +215,7 @@ Status check_count_options(const Options& options) {
   const bool refine = options.refine > 0 && options.refine <= kLargestNumber;
   if (refine && usable(options.patch_size) && usable(options.sub_patch_size)) return status;
   status.code = StatusCode::kUsage;
-  TextBuilder(status.message, sizeof status.message)
+  MessageText(status.message, sizeof status.message)
       .add("expected --patch and --sub-patch from 0 and --refine above 0, found ")
       .add(options.patch_size).add(", ").add(options.sub_patch_size).add(" and ").add(options.refine);
   return status;
@@ -195,15 +228,7 @@ bool decide_counts(Scene& scene, const Options& options, Status& status, Wanted&
     Mesh& mesh = scene.meshes[m];
     decide_patches(scene, options, most, mesh);
     if (mesh.nu <= kMostPieces && mesh.nv <= kMostPieces) decide_sub_patches(scene, options, mesh);
-    if (!fits(mesh, patches, sub_patches)) {
-      status.code = StatusCode::kScene;
-      TextBuilder(status.message, sizeof status.message)
-          .add("expected at most 65535 pieces along an edge and 2^32 - 2 sub-patches in all, found ")
-          .add(mesh.nu).add(" x ").add(mesh.nv).add(" patches of ").add(mesh.su).add(" x ").add(mesh.sv)
-          .add(" sub-patches (65536 stands for more)");
-      wanted = {Wanted::Kind::kMesh, m};
-      return false;
-    }
+    if (!fits(mesh, patches, sub_patches)) return too_many(mesh, {Wanted::Kind::kMesh, m}, status, wanted);
     mesh.first_patch = static_cast<std::uint32_t>(patches);
     mesh.first_sub_patch = static_cast<std::uint32_t>(sub_patches);
     patches += mesh.patch_count();
@@ -211,6 +236,9 @@ bool decide_counts(Scene& scene, const Options& options, Status& status, Wanted&
   }
   scene.patch_count = static_cast<std::uint32_t>(patches);
   scene.sub_patch_count = static_cast<std::uint32_t>(sub_patches);
+  for (std::uint32_t p = 0; p < scene.planes.size(); ++p) {
+    if (!decide_plane(scene, p, options, most, status, wanted)) return false;
+  }
   return true;
 }
 

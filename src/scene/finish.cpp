@@ -34,6 +34,9 @@ Box box_of(const Scene& scene) {
     for (std::uint32_t k = 0; k < corner_count(light); ++k) box.add(light.corners[k]);
   }
   for (const Camera& camera : scene.cameras) box.add(camera.eye);
+  for (const Plane& plane : scene.planes) {
+    for (const Vec3& corner : plane.corners) box.add(corner);
+  }
   return box;
 }
 
@@ -71,6 +74,9 @@ void centre_scene(Scene& scene) {
     camera.eye = box.centred(camera.eye);
     camera.look = box.centred(camera.look);
   }
+  for (Plane& plane : scene.planes) {
+    for (Vec3& corner : plane.corners) corner = box.centred(corner);
+  }
 }
 
 void place_lights(Scene& scene) {
@@ -100,6 +106,12 @@ void decide_channels(Scene& scene) {
   }
   for (const Light& light : scene.lights) {
     if (!light.colour.grey()) scene.channels = 3;
+  }
+  for (const Optics& optics : scene.optics) {
+    if (!optics.reflect.grey() || !optics.transmit.grey()) scene.channels = 3;
+  }
+  for (const Background& seen : scene.background) {
+    if (!seen.zenith.grey() || !seen.horizon.grey() || !seen.ground.grey()) scene.channels = 3;
   }
 }
 

@@ -26,28 +26,32 @@ constexpr double kLargestExponent = 1e6;
 // The diagonals of a light may pass each other at this part of the longer one.
 constexpr double kFlat = 1e-3;
 
-bool read_at(SceneReading& reading, Light& light) { return read_point(reading.words, {"at"}, light.position); }
-
-bool read_towards(SceneReading& reading, Light& light) {
-  return read_direction(reading.words, {"towards"}, light.towards);
+bool read_at(SceneReading& reading) {
+  return read_point(reading.words, {"at"}, value_of<Light>(reading).position);
 }
 
-bool read_strength(SceneReading& reading, Light& light) {
-  return read_number(reading.words, {reading.key.text}, kNotNegative, light.strength);
+bool read_towards(SceneReading& reading) {
+  return read_direction(reading.words, {"towards"}, value_of<Light>(reading).towards);
 }
 
-bool read_cosine(SceneReading& reading, Light& light) {
+bool read_strength(SceneReading& reading) {
+  return read_number(reading.words, {reading.key.text}, kNotNegative, value_of<Light>(reading).strength);
+}
+
+bool read_cosine(SceneReading& reading) {
+  Light& light = value_of<Light>(reading);
   light.aimed = true;
   return read_number(reading.words, {"exponent of the cosine"}, {0, kLargestExponent}, light.cosine_exponent);
 }
 
-bool read_open(SceneReading&, Light& light) { return light.open = true; }
+bool read_open(SceneReading& reading) { return value_of<Light>(reading).open = true; }
 
-bool read_light_colour(SceneReading& reading, Light& light) {
-  return read_colour(reading.words, {"colour"}, kNotNegative, light.colour);
+bool read_light_colour(SceneReading& reading) {
+  return read_colour(reading.words, {"colour"}, kNotNegative, value_of<Light>(reading).colour);
 }
 
-bool read_attenuation(SceneReading& reading, Light& light) {
+bool read_attenuation(SceneReading& reading) {
+  Light& light = value_of<Light>(reading);
   constexpr std::string_view kParts[3] = {"C", "L", "Q"};
   const Token at = reading.words.peek();
   for (std::uint32_t k = 0; k < 3; ++k) {
@@ -57,25 +61,12 @@ bool read_attenuation(SceneReading& reading, Light& light) {
   return reading.words.expected(at, "an attenuation that is not 0 0 0");
 }
 
-/// A light that nobody sees behind: four different corners, convex, in one plane as nearly as it matters.
-bool read_light_quad(SceneReading& reading, Light& light) {
-  const Token at = reading.words.peek();
-  for (std::uint32_t k = 0; k < 4; ++k) {
-    if (!read_point(reading.words, {"corner", k + 1}, light.corners[k])) return false;
-  }
-  const Vec3* c = light.corners;
-  bool good = quad_shape(c) == QuadShape::kConvex;
-  for (std::uint32_t k = 0; k < 4; ++k) good = good && c[k] != c[(k + 3) % 4];
-  const double a = length(c[2] - c[0]), b = length(c[3] - c[1]);
-  const double off = dot(c[1] - c[0], unit_vector(cross(c[2] - c[0], c[3] - c[1])));  // between the diagonals
-  const double most = kFlat * (a > b ? a : b);
-  if (good && off <= most && off >= -most) return true;
-  reading.words.mistake(at).add("expected the four corners of a plane convex quad with an area");
-  return false;
-}
+/// A light that nobody sees behind.
+bool read_light_quad(SceneReading& reading) { return read_plane_quad(reading, value_of<Light>(reading).corners); }
 
 /// Only an object with faces can shine, and only as one light.
-bool read_light_object(SceneReading& reading, Light& light) {
+bool read_light_object(SceneReading& reading) {
+  Light& light = value_of<Light>(reading);
   const Token at = reading.words.peek();
   if (!read_reference(reading, "the name of an object", &SceneStore::find_object, light.object)) return false;
   if (!reading.store.storing()) return true;
@@ -85,26 +76,28 @@ bool read_light_object(SceneReading& reading, Light& light) {
   return true;
 }
 
-bool read_later(SceneReading& reading, Light&) { return not_supported_yet(reading, reading.key); }
+bool read_later(SceneReading& reading) { return not_supported_yet(reading, reading.key); }
 
-bool read_direct_flags(SceneReading& reading, Light& light) { return read_flags(reading, light.direct); }
-bool read_ambient_flags(SceneReading& reading, Light& light) { return read_flags(reading, light.ambient); }
+bool read_direct_flags(SceneReading& reading) {
+  return read_flags(reading, value_of<Light>(reading).direct);
+}
+bool read_ambient_flags(SceneReading& reading) { return read_flags(reading, value_of<Light>(reading).ambient); }
 
-constexpr Key<Light> kLightKeys[] = {{"quad", kArea, kArea, read_light_quad},
-                                     {"object", kPolyhedron, kPolyhedron, read_light_object},
-                                     {"at", kPoint, kPoint, read_at},
-                                     {"towards", kPoint | kSun, kSun, read_towards},
-                                     {"intensity", kPoint, kPoint, read_strength},
-                                     {"luminance", kArea | kPolyhedron, kArea | kPolyhedron, read_strength},
-                                     {"illuminance", kSun, kSun, read_strength},
-                                     {"cosine", kPoint, 0, read_cosine},
-                                     {"ies", kPoint, 0, read_later},
-                                     {"turn", kPoint, 0, read_later},
-                                     {"open", kArea, 0, read_open},
-                                     {"colour", kAny, 0, read_light_colour},
-                                     {"attenuation", kPoint | kArea | kPolyhedron, 0, read_attenuation},
-                                     {"direct", kAny, 0, read_direct_flags},
-                                     {"ambient", kAny, 0, read_ambient_flags}};
+constexpr Key kLightKeys[] = {{"quad", kArea, kArea, read_light_quad},
+                              {"object", kPolyhedron, kPolyhedron, read_light_object},
+                              {"at", kPoint, kPoint, read_at},
+                              {"towards", kPoint | kSun, kSun, read_towards},
+                              {"intensity", kPoint, kPoint, read_strength},
+                              {"luminance", kArea | kPolyhedron, kArea | kPolyhedron, read_strength},
+                              {"illuminance", kSun, kSun, read_strength},
+                              {"cosine", kPoint, 0, read_cosine},
+                              {"ies", kPoint, 0, read_later},
+                              {"turn", kPoint, 0, read_later},
+                              {"open", kArea, 0, read_open},
+                              {"colour", kAny, 0, read_light_colour},
+                              {"attenuation", kPoint | kArea | kPolyhedron, 0, read_attenuation},
+                              {"direct", kAny, 0, read_direct_flags},
+                              {"ambient", kAny, 0, read_ambient_flags}};
 
 const Kind* read_kind(Words& words) {
   for (const Kind& kind : kKinds) {
@@ -148,6 +141,22 @@ bool read_flags(SceneReading& reading, GivenFlags& flags) {
   return words.expected("+ or - before blocks, shadowed_towards or shadowed_leaving");
 }
 
+bool read_plane_quad(SceneReading& reading, Vec3* corners) {
+  const Token at = reading.words.peek();
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    if (!read_point(reading.words, {"corner", k + 1}, corners[k])) return false;
+  }
+  const Vec3* c = corners;
+  bool good = quad_shape(c) == QuadShape::kConvex;
+  for (std::uint32_t k = 0; k < 4; ++k) good = good && c[k] != c[(k + 3) % 4];
+  const double a = length(c[2] - c[0]), b = length(c[3] - c[1]);
+  const double off = dot(c[1] - c[0], unit_vector(cross(c[2] - c[0], c[3] - c[1])));  // between the diagonals
+  const double most = kFlat * (a > b ? a : b);
+  if (good && off <= most && off >= -most) return true;
+  reading.words.mistake(at).add("expected the four corners of a plane convex quad with an area");
+  return false;
+}
+
 /// light NAME point|area|polyhedron|sun, then its values
 bool read_light(SceneReading& reading) {
   Words& words = reading.words;
@@ -157,7 +166,7 @@ bool read_light(SceneReading& reading) {
   if (kind == nullptr) return false;
   Light light;
   light.kind = kind->kind;
-  if (!read_keys<Light>(reading, kLightKeys, kind->bit, light)) return false;
+  if (!read_keys(reading, kLightKeys, kind->bit, &light)) return false;
   if (light.aimed && light.towards == Vec3{}) return words.expected("'towards', since there is a 'cosine'");
   if (reading.store.storing() && light.object != kNone) {
     reading.store.scene().objects[light.object].light = static_cast<std::uint32_t>(reading.store.counts().lights);

@@ -162,4 +162,21 @@ std::uint32_t cell_of_patch(const Mesh& mesh, std::uint32_t local_patch) {
   return index.v / (mesh.nv / mesh.cells_v) * mesh.cells_u + index.u / (mesh.nu / mesh.cells_u);
 }
 
+Piece plane_piece(const Plane& plane) {
+  Piece piece;
+  for (std::uint32_t k = 0; k < 4; ++k) piece.corner[k] = plane.corners[k];
+  return piece;
+}
+
+Piece plane_sub_patch(const Plane& plane, std::uint32_t local) {
+  const Piece whole = plane_piece(plane);
+  const std::uint32_t u = local % plane.width(), v = local / plane.width();
+  Piece piece;
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    const std::uint32_t i = u + (k == 1 || k == 2 ? 1 : 0), j = v + (k >= 2 ? 1 : 0);
+    piece.corner[k] = whole.point(static_cast<double>(i) / plane.width(), static_cast<double>(j) / plane.height());
+  }
+  return piece;
+}
+
 }  // namespace shodo

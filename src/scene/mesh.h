@@ -19,9 +19,9 @@ namespace shodo {
 /// A cell, a patch or a sub-patch.
 struct Piece {
   Vec3 corner[4];             // in front's counter-clockwise order; corner[3] == corner[2] for a triangle
-  std::uint32_t corners = 4;  // 3 or 4
-  bool concave = false;       // cut from corner 1 to corner 3
-  bool cut = false;           // not convex: cut from corner 1 to corner 3 if concave, else from corner 0 to corner 2
+  features::FixedUnless<features::kMeshes, std::uint32_t, 4> corners = 4;  // 3 or 4
+  features::FixedUnless<features::kMeshes, bool, false> concave = false;   // cut from corner 1 to corner 3
+  features::FixedUnless<features::kMeshes, bool, false> cut = false;       // not convex: cut from corner 1 to corner 3 if concave, else from corner 0 to corner 2
 
   /// Point at (s, t) of the unit square: corner 0 at (0,0), 1 at (1,0), 2 at (1,1), 3 at (0,1) for a quadrilateral;
   /// for a triangle corner 0 + s (corner 1 - corner 0) + t (corner 2 - corner 0), s + t <= 1.
@@ -56,6 +56,10 @@ std::uint32_t cell_count(const Mesh& mesh);
 Piece cell_piece(const Scene& scene, const Mesh& mesh, std::uint32_t cell);
 /// The cell that holds a patch; a patch never spans two.
 std::uint32_t cell_of_patch(const Mesh& mesh, std::uint32_t local_patch);
+
+/// A plane as one piece, and its sub-patch `local`, row by row from corner 0, u along its first edge.
+Piece plane_piece(const Plane& plane);
+Piece plane_sub_patch(const Plane& plane, std::uint32_t local);
 
 /// What light and ambient stages need of a patch; 72 bytes each.
 struct Patch {

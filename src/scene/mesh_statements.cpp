@@ -1,4 +1,4 @@
-// The statements that make surfaces: object, quad, tri, grid, sub (and obj, to come).
+// The statements that make surfaces: object, quad, tri, grid, sub (and obj, to come); and plane, which measures.
 //
 // Faces without area are left out and counted; a quad with two equal neighbouring corners becomes the triangle that it
 // is, divided by the larger of its two counts (a quad that is not convex takes the larger for both, see mesh.h). A grid
@@ -19,37 +19,43 @@ struct GivenCounts {
 
 constexpr std::uint32_t kQuad = 1, kTri = 2, kGrid = 4;
 
-bool read_patches(SceneReading& reading, GivenCounts& counts) {
+bool read_patches(SceneReading& reading) {
+  GivenCounts& counts = value_of<GivenCounts>(reading);
   return read_count(reading.words, {"patches along u"}, 1, kMostPieces, counts.nu) &&
          read_count(reading.words, {"patches along v"}, 1, kMostPieces, counts.nv);
 }
 
-bool read_subs(SceneReading& reading, GivenCounts& counts) {
+bool read_subs(SceneReading& reading) {
+  GivenCounts& counts = value_of<GivenCounts>(reading);
   return read_count(reading.words, {"sub-patches along u"}, 1, kMostPieces, counts.su) &&
          read_count(reading.words, {"sub-patches along v"}, 1, kMostPieces, counts.sv);
 }
 
-bool read_tri_patches(SceneReading& reading, GivenCounts& counts) {
+bool read_tri_patches(SceneReading& reading) {
+  GivenCounts& counts = value_of<GivenCounts>(reading);
   const bool read = read_count(reading.words, {"patches along an edge"}, 1, kMostPieces, counts.nu);
   counts.nv = counts.nu;
   return read;
 }
 
-bool read_tri_subs(SceneReading& reading, GivenCounts& counts) {
+bool read_tri_subs(SceneReading& reading) {
+  GivenCounts& counts = value_of<GivenCounts>(reading);
   const bool read = read_count(reading.words, {"sub-patches along an edge"}, 1, kMostPieces, counts.su);
   counts.sv = counts.su;
   return read;
 }
 
-constexpr Key<GivenCounts> kCountKeys[] = {{"patches", kQuad, 0, read_patches},
-                                           {"sub", kQuad | kGrid, 0, read_subs},
-                                           {"patches", kTri, 0, read_tri_patches},
-                                           {"sub", kTri, 0, read_tri_subs}};
+constexpr Key kCountKeys[] = {{"patches", kQuad, 0, read_patches},
+                              {"sub", kQuad | kGrid, 0, read_subs},
+                              {"patches", kTri, 0, read_tri_patches},
+                              {"sub", kTri, 0, read_tri_subs}};
 
-bool read_direct_flags(SceneReading& reading, Object& object) { return read_flags(reading, object.direct); }
-bool read_ambient_flags(SceneReading& reading, Object& object) { return read_flags(reading, object.ambient); }
+bool read_direct_flags(SceneReading& reading) {
+  return read_flags(reading, value_of<Object>(reading).direct);
+}
+bool read_ambient_flags(SceneReading& reading) { return read_flags(reading, value_of<Object>(reading).ambient); }
 
-constexpr Key<Object> kObjectKeys[] = {{"direct", 1, 0, read_direct_flags}, {"ambient", 1, 0, read_ambient_flags}};
+constexpr Key kObjectKeys[] = {{"direct", 1, 0, read_direct_flags}, {"ambient", 1, 0, read_ambient_flags}};
 
 std::uint32_t larger(std::uint32_t a, std::uint32_t b) { return a > b ? a : b; }
 
@@ -65,7 +71,7 @@ bool begin_mesh(SceneReading& reading, Mesh& mesh) {
 
 bool sub_suits_triangle(const SceneReading& reading) {
   if (reading.sub_u == reading.sub_v) return true;
-  TextBuilder message = reading.words.mistake(reading.statement);
+  MessageText message = reading.words.mistake(reading.statement);
   message.add("expected equal counts in the 'sub' of an object with a triangle, found ");
   message.add(reading.sub_u).add(' ').add(reading.sub_v);
   return false;
@@ -85,6 +91,11 @@ bool add_mesh(SceneReading& reading, Mesh& mesh, const GivenCounts& given) {
   reading.store.add(mesh);
   if (reading.store.storing()) ++reading.store.scene().objects[mesh.object].mesh_count;
   return true;
+}
+
+bool only_convex_quads(SceneReading& reading) {
+  reading.words.mistake(reading.statement).add("this library is built without quads that are not convex");
+  return false;
 }
 
 bool add_triangle(SceneReading& reading, Mesh& mesh, const Vec3* corner, const GivenCounts& given) {
@@ -107,6 +118,7 @@ bool add_quad(SceneReading& reading, Mesh& mesh, const Vec3* corner, const Given
     ++reading.store.scene().polygons_dropped;
     return true;
   }
+  if (!features::kMeshes && shape != QuadShape::kConvex) return only_convex_quads(reading);
   mesh.kind = MeshKind::kQuad;
   mesh.cut = shape != QuadShape::kConvex;
   mesh.concave = shape == QuadShape::kCut13;
@@ -129,7 +141,7 @@ bool check_cell(SceneReading& reading, Mesh& mesh, std::uint32_t c, std::uint32_
                           store.vertex(last - columns)};
   const QuadShape shape = quad_shape(corner);
   if (shape == QuadShape::kCrossing) {
-    TextBuilder message = reading.words.mistake(at);
+    MessageText message = reading.words.mistake(at);
     message.add("expected cells that do not cross themselves or fold over, found the cell of column ");
     message.add(c).add(", row ").add(r);
     return false;
@@ -156,7 +168,7 @@ bool read_object(SceneReading& reading) {
   Token name;
   if (!read_new_name(reading, "the name of an object", &SceneStore::find_object, name)) return false;
   Object object;
-  if (!read_keys<Object>(reading, kObjectKeys, 1, object)) return false;
+  if (!read_keys(reading, kObjectKeys, 1, &object)) return false;
   object.name = reading.store.add_name(name.text);
   object.first_mesh = static_cast<std::uint32_t>(reading.store.counts().meshes);
   reading.store.add(object);
@@ -170,12 +182,13 @@ bool read_quad(SceneReading& reading) {
   Vec3 corner[4];
   GivenCounts given;
   if (!begin_mesh(reading, mesh) || !read_corners(reading, corner, 4)) return false;
-  if (!read_keys<GivenCounts>(reading, kCountKeys, kQuad, given)) return false;
+  if (!read_keys(reading, kCountKeys, kQuad, &given)) return false;
   Vec3 different[4];
   std::uint32_t count = 0;
   for (std::uint32_t k = 0; k < 4; ++k) {
     if (corner[k] != corner[(k + 3) % 4]) different[count++] = corner[k];
   }
+  if (!features::kMeshes && count == 3) return only_convex_quads(reading);
   if (count != 3) return add_quad(reading, mesh, corner, given);
   given.nu = given.nv = larger(given.nu, given.nv);
   given.su = given.sv = larger(given.su, given.sv);
@@ -184,16 +197,18 @@ bool read_quad(SceneReading& reading) {
 
 /// tri MATERIAL, 3 corners [patches N] [sub N]
 bool read_tri(SceneReading& reading) {
+  if constexpr (!features::kMeshes) return left_out(reading, reading.statement);
   Mesh mesh;
   Vec3 corner[3];
   GivenCounts given;
   if (!begin_mesh(reading, mesh) || !read_corners(reading, corner, 3)) return false;
-  if (!read_keys<GivenCounts>(reading, kCountKeys, kTri, given)) return false;
+  if (!read_keys(reading, kCountKeys, kTri, &given)) return false;
   return add_triangle(reading, mesh, corner, given);
 }
 
 /// grid MATERIAL COLUMNS ROWS, the vertices row by row [sub SU SV]
 bool read_grid(SceneReading& reading) {
+  if constexpr (!features::kMeshes) return left_out(reading, reading.statement);
   Words& words = reading.words;
   Mesh mesh;
   mesh.kind = MeshKind::kGrid;
@@ -215,7 +230,28 @@ bool read_grid(SceneReading& reading) {
   }
   mesh.wraps_u = reading.store.storing() && wraps(reading.store, mesh);
   GivenCounts given;
-  return read_keys<GivenCounts>(reading, kCountKeys, kGrid, given) && add_mesh(reading, mesh, given);
+  return read_keys(reading, kCountKeys, kGrid, &given) && add_mesh(reading, mesh, given);
+}
+
+/// plane NAME, 4 corners [patches NU NV] [sub SU SV]; like a light it doesn't end an object.
+bool read_plane(SceneReading& reading) {
+  Token name;
+  Plane plane;
+  GivenCounts given;
+  if (!read_new_name(reading, "the name of a plane", &SceneStore::find_plane, name)) return false;
+  if (!read_plane_quad(reading, plane.corners)) return false;
+  if (!read_keys(reading, kCountKeys, kQuad, &given)) return false;
+  if (reading.wanted.kind == Wanted::Kind::kPlane && reading.wanted.index == reading.store.counts().planes) {
+    reading.words.place(reading.statement);
+    return false;
+  }
+  plane.nu = given.nu;
+  plane.nv = given.nv;
+  plane.su = given.su;
+  plane.sv = given.sv;
+  plane.name = reading.store.add_name(name.text);
+  reading.store.add(plane);
+  return true;
 }
 
 bool read_obj(SceneReading& reading) { return not_supported_yet(reading, reading.statement); }

@@ -10,6 +10,7 @@
 #include <span>
 #include <string_view>
 
+#include "base/features.h"
 #include "base/vector.h"
 
 namespace shodo {
@@ -19,6 +20,24 @@ inline constexpr std::uint32_t kNone = 0xffffffff;
 struct Material {
   std::string_view name;
   Rgb diffuse;  // reflectance rho, 0 .. 0.9999
+};
+
+/// What a material does besides reflecting diffusely (doc/optics.md); only materials that do any of it have one.
+struct Optics {
+  std::uint32_t material = 0;
+  Rgb reflect;                 // the mirror's part, on the front
+  Rgb transmit;                // what goes straight through, both ways; above 0: a pane, which blocks nothing
+  double highlight = 0;        // reflectance of the gloss at normal incidence
+  double highlight_exponent = 1;
+
+  bool mirrors() const { return reflect.c[0] > 0 || reflect.c[1] > 0 || reflect.c[2] > 0; }
+  bool transmits() const { return transmit.c[0] > 0 || transmit.c[1] > 0 || transmit.c[2] > 0; }
+};
+
+/// What is seen where nothing stands: luminance by the direction's sine s above the horizon, cd/m2.
+struct Background {
+  Rgb zenith, horizon, ground;  // horizon + s^2 (zenith - horizon) above, ground below
+  Vec3 up{0, 1, 0};             // unit
 };
 
 /// One of the two sets of flags of paper 3.1 as a scene file gives them: -1 cleared, +1 set, 0 not given.
@@ -43,9 +62,10 @@ enum class MeshKind : std::uint8_t { kQuad, kTriangle, kGrid };
 /// A quad is one cell, a grid (columns-1) x (rows-1); each cell carries patches_per_cell_u x _v patches. A triangle
 /// divides each edge by `nu` (== nv) and has nu^2 patches. Sub-patches: su x sv a patch, a triangle su^2.
 struct Mesh {
-  MeshKind kind = MeshKind::kQuad;
-  bool concave = false;           // quad only: cut from corner 1 to corner 3 (else the fixed diagonal 0 to 2)
-  bool cut = false;               // quad: not convex, on the diagonal that `concave` says; grid: some cell is so
+  features::FixedUnless<features::kMeshes, MeshKind, MeshKind::kQuad> kind = MeshKind::kQuad;
+  features::FixedUnless<features::kMeshes, bool, false> concave = false;  // quad only: cut from corner 1 to corner 3 (else the fixed diagonal 0 to 2)
+  features::FixedUnless<features::kMeshes, bool, false> cut = false;      // quad: not convex, on the diagonal that
+                                  // `concave` says; grid: some cell is so
   bool wraps_u = false;           // grid only: the last column of vertices is the first
   std::uint32_t object = 0;
   std::uint32_t material = 0;
@@ -80,6 +100,20 @@ struct Light {
   GivenFlags direct, ambient;
 };
 
+/// A measuring plane: a plane convex quadrilateral that receives light on its front and does nothing else. It is no
+/// mesh: it neither blocks nor reflects, it isn't drawn, and it is in no count of patches.
+struct Plane {
+  std::string_view name;
+  Vec3 corners[4];                // front towards (c1-c0) x (c2-c0)
+  std::uint32_t nu = 0, nv = 0;   // as of a quad
+  std::uint32_t su = 0, sv = 0;
+  std::uint32_t first_sub_patch = 0;  // among those of all planes
+
+  std::uint32_t width() const { return nu * su; }  // sub-patches
+  std::uint32_t height() const { return nv * sv; }
+  std::uint32_t sub_patch_count() const { return width() * height(); }
+};
+
 struct Camera {
   std::string_view name;
   Vec3 eye, look, up;
@@ -89,12 +123,13 @@ struct Camera {
 struct Display {
   double min_cd_m2 = 1;
   double max_cd_m2 = 250;
+  bool roll = false;  // brightness beyond half of the range is rolled off; else it is clipped at the maximum
 };
 
 struct Scene {
   double metres_per_unit = 1;
   Vec3 origin;              // scene units: what was subtracted from every coordinate
-  Vec3 half_extent;         // of the box of geometry, point lights and cameras
+  Vec3 half_extent;         // of the box of geometry, planes, point lights and cameras
   Display display;
   std::uint32_t channels = 1;
   std::span<Material> materials;
@@ -103,9 +138,25 @@ struct Scene {
   std::span<Vec3> vertices;
   std::span<Light> lights;  // as an object for flags: index objects.size() + light
   std::span<Camera> cameras;
+  std::span<Plane> planes;
+  std::span<Optics> optics;          // ascending material; mostly none
+  std::span<Background> background;  // one or none
   std::uint32_t patch_count = 0;
   std::uint32_t sub_patch_count = 0;
+  std::uint32_t plane_sub_patch_count = 0;
   std::uint32_t polygons_dropped = 0;  // faces without area that the file has
+
+  /// Null: the material only reflects diffusely.
+  const Optics* optics_of(std::uint32_t material) const {
+    for (const Optics& found : optics) {
+      if (found.material == material) return &found;
+    }
+    return nullptr;
+  }
+  bool transmits(std::uint32_t material) const {
+    const Optics* const found = optics_of(material);
+    return found != nullptr && found->transmits();
+  }
 
   double largest_half_extent() const {
     const double xy = half_extent.x > half_extent.y ? half_extent.x : half_extent.y;

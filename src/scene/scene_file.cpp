@@ -18,7 +18,7 @@ bool check_cameras(const Scene& scene, Status& status, Wanted& wanted) {
   for (std::uint32_t k = 0; k < scene.cameras.size(); ++k) {
     if (scene.cameras[k].eye != scene.cameras[k].look) continue;
     status.code = StatusCode::kScene;
-    TextBuilder(status.message, sizeof status.message)
+    MessageText(status.message, sizeof status.message)
         .add("expected a camera that looks at a point further from its eye, in a scene of this size");
     wanted = {Wanted::Kind::kCamera, k};
     return false;

@@ -1,6 +1,7 @@
 // The loop over the statements, and those about the scene as a whole: shodo, unit, display, camera, include, material.
 #include "scene/statements.h"
 
+#include "scene/optics_statements.h"
 #include "scene/values.h"
 
 namespace shodo {
@@ -13,13 +14,15 @@ struct Statement {
 };
 
 constexpr Statement kStatements[] = {
-    {"camera", read_camera}, {"display", read_display},   {"grid", read_grid}, {"include", read_include},
-    {"light", read_light},   {"material", read_material}, {"obj", read_obj},   {"object", read_object},
-    {"quad", read_quad},     {"sub", read_sub},           {"tri", read_tri},   {"unit", read_unit},
+    {"background", read_background}, {"camera", read_camera}, {"display", read_display},   {"grid", read_grid},
+    {"include", read_include},       {"light", read_light},   {"material", read_material}, {"obj", read_obj},
+    {"object", read_object},         {"plane", read_plane},   {"quad", read_quad},         {"sub", read_sub},
+    {"tri", read_tri},
+    {"unit", read_unit},
 };
 
 bool expected_statement(Words& words) {
-  TextBuilder message = words.mistake(words.peek());
+  MessageText message = words.mistake(words.peek());
   message.add("expected a statement (");
   std::string_view comma;
   for (const Statement& statement : kStatements) {
@@ -62,7 +65,19 @@ bool read_statement(SceneReading& reading) {
     if (!statement->read(reading)) return false;
   }
   if (!words.at_end()) return words.expected("the end of the line");
-  return reading.include.kind != TokenKind::kWord || words.enter(reading.include);
+  return !features::kIncludes || reading.include.kind != TokenKind::kWord || words.enter(reading.include);
+}
+
+/// "expected <the keys that may stand here> or the end of the line"; always false.
+bool expected_key(Words& words, std::span<const Key> keys, std::uint32_t kind) {
+  MessageText message = words.mistake(words.peek());
+  message.add("expected ");
+  for (const Key& key : keys) {
+    if ((key.kinds & kind) != 0) message.add(key.word).add(", ");
+  }
+  message.add("or the end of the line");
+  add_found(message, words.peek());
+  return false;
 }
 
 struct Unit {
@@ -74,34 +89,73 @@ constexpr Unit kUnits[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}
 
 constexpr std::uint32_t kAlways = 1;
 
-bool read_eye(SceneReading& reading, Camera& camera) { return read_point(reading.words, {"eye"}, camera.eye); }
-bool read_look(SceneReading& reading, Camera& camera) { return read_point(reading.words, {"look"}, camera.look); }
-bool read_up(SceneReading& reading, Camera& camera) { return read_direction(reading.words, {"up"}, camera.up); }
-bool read_fov(SceneReading& reading, Camera& camera) {
-  return read_number(reading.words, {"fov"}, {1, 170}, camera.fov_degrees);
+bool read_eye(SceneReading& reading) {
+  return read_point(reading.words, {"eye"}, value_of<Camera>(reading).eye);
+}
+bool read_look(SceneReading& reading) { return read_point(reading.words, {"look"}, value_of<Camera>(reading).look); }
+bool read_up(SceneReading& reading) { return read_direction(reading.words, {"up"}, value_of<Camera>(reading).up); }
+bool read_fov(SceneReading& reading) {
+  return read_number(reading.words, {"fov"}, {1, 170}, value_of<Camera>(reading).fov_degrees);
 }
 
-constexpr Key<Camera> kCameraKeys[] = {{"eye", kAlways, kAlways, read_eye},
-                                       {"look", kAlways, kAlways, read_look},
-                                       {"up", kAlways, kAlways, read_up},
-                                       {"fov", kAlways, kAlways, read_fov}};
+constexpr Key kCameraKeys[] = {{"eye", kAlways, kAlways, read_eye},
+                               {"look", kAlways, kAlways, read_look},
+                               {"up", kAlways, kAlways, read_up},
+                               {"fov", kAlways, kAlways, read_fov}};
 
 // 2^-40 of a radian moves a picture by less than 10^-8 of a pixel.
 constexpr double kParallel = 0x1p-40;
 
-bool read_diffuse(SceneReading& reading, Material& material) {
-  return read_grey_or_colour(reading.words, {"diffuse"}, {0, kLargestReflectance}, material.diffuse);
+/// A material as its statement is read.
+struct MaterialWords {
+  Material material;
+  Optics optics;
+};
+
+bool read_diffuse(SceneReading& reading) {
+  return read_grey_or_colour(reading.words, {"diffuse"}, {0, kLargestReflectance},
+                             value_of<MaterialWords>(reading).material.diffuse);
+}
+bool read_reflect(SceneReading& reading) {
+  return read_grey_or_colour(reading.words, {"reflect"}, {0, kLargestReflectance},
+                             value_of<MaterialWords>(reading).optics.reflect);
+}
+bool read_transmit(SceneReading& reading) {
+  return read_grey_or_colour(reading.words, {"transmit"}, {0, kLargestReflectance},
+                             value_of<MaterialWords>(reading).optics.transmit);
+}
+bool read_highlight(SceneReading& reading) {
+  return read_highlight(reading.words, value_of<MaterialWords>(reading).optics);
 }
 
-bool read_later(SceneReading& reading, Material&) { return not_supported_yet(reading, reading.key); }
+bool read_later(SceneReading& reading) { return not_supported_yet(reading, reading.key); }
 
-constexpr Key<Material> kMaterialKeys[] = {{"diffuse", kAlways, kAlways, read_diffuse},
-                                           {"texture", kAlways, 0, read_later},
-                                           {"reflect", kAlways, 0, read_later},
-                                           {"transmit", kAlways, 0, read_later},
-                                           {"highlight", kAlways, 0, read_later}};
+constexpr Key kMaterialKeys[] = {{"diffuse", kAlways, kAlways, read_diffuse},
+                                 {"texture", kAlways, 0, read_later},
+                                 {"reflect", kAlways, 0, read_reflect},
+                                 {"transmit", kAlways, 0, read_transmit},
+                                 {"highlight", kAlways, 0, read_highlight}};
 
 }  // namespace
+
+bool read_keys(SceneReading& reading, std::span<const Key> keys, std::uint32_t kind, void* value) {
+  Words& words = reading.words;
+  std::uint32_t seen = 0;
+  reading.value = value;
+  while (words.at_word()) {
+    std::uint32_t k = 0;
+    while (k < keys.size() && ((keys[k].kinds & kind) == 0 || keys[k].word != words.peek().text)) ++k;
+    if (k == keys.size()) return expected_key(words, keys, kind);
+    if ((seen >> k & 1) != 0) return words.expected("this word once only");
+    seen |= std::uint32_t{1} << k;
+    reading.key = words.take();
+    if (!keys[k].read(reading)) return false;
+  }
+  for (std::uint32_t k = 0; k < keys.size(); ++k) {
+    if ((keys[k].required & kind) != 0 && (seen >> k & 1) == 0) return words.expected(keys[k].word);
+  }
+  return true;
+}
 
 bool read_statements(SceneReading& reading) {
   Words& words = reading.words;
@@ -133,7 +187,7 @@ bool read_reference(SceneReading& reading, std::string_view what, FindName find,
   if (index != kNone) return true;
   index = 0;
   if (!reading.store.storing()) return true;
-  TextBuilder message = reading.words.mistake(name);
+  MessageText message = reading.words.mistake(name);
   message.add("expected ").add(what).add(" defined above");
   add_found(message, name);
   return false;
@@ -142,9 +196,14 @@ bool read_reference(SceneReading& reading, std::string_view what, FindName find,
 bool read_new_name(SceneReading& reading, std::string_view what, FindName find, Token& name) {
   if (!read_name(reading.words, what, name)) return false;
   if ((reading.store.*find)(name.text) == kNone) return true;
-  TextBuilder message = reading.words.mistake(name);
+  MessageText message = reading.words.mistake(name);
   message.add("expected ").add(what).add(" not used before");
   add_found(message, name);
+  return false;
+}
+
+bool left_out(SceneReading& reading, const Token& at) {
+  reading.words.mistake(at).add("this library is built without '").add(at.text).add('\'');
   return false;
 }
 
@@ -167,7 +226,7 @@ bool read_unit(SceneReading& reading) {
   return words.expected("m, cm, mm, in or ft");
 }
 
-/// display MIN MAX: once.
+/// display MIN MAX [clip|roll]: once.
 bool read_display(SceneReading& reading) {
   Words& words = reading.words;
   if (reading.display_given) return words.expected(reading.statement, "'display' once only");
@@ -176,6 +235,11 @@ bool read_display(SceneReading& reading) {
   const Token at = words.peek();
   if (!read_number(words, {"display maximum, cd/m2"}, kNotNegative, display.max_cd_m2)) return false;
   if (!(display.max_cd_m2 > display.min_cd_m2)) return words.expected(at, "a display maximum above the minimum");
+  if (words.at_word()) {
+    display.roll = words.peek().text == "roll";
+    if (!display.roll && words.peek().text != "clip") return words.expected("clip, roll or the end of the line");
+    words.take();
+  }
   return reading.display_given = true;
 }
 
@@ -185,7 +249,7 @@ bool read_camera(SceneReading& reading) {
   Token name;
   if (!read_new_name(reading, "the name of a camera", &SceneStore::find_camera, name)) return false;
   Camera camera;
-  if (!read_keys<Camera>(reading, kCameraKeys, kAlways, camera)) return false;
+  if (!read_keys(reading, kCameraKeys, kAlways, &camera)) return false;
   if (camera.look == camera.eye) {
     words.mistake(name).add("expected a camera that looks at another point than its eye");
     return false;
@@ -205,19 +269,23 @@ bool read_camera(SceneReading& reading) {
 
 /// include PATH; the file is entered when the statement has ended.
 bool read_include(SceneReading& reading) {
+  if constexpr (!features::kIncludes) return left_out(reading, reading.statement);
   if (!reading.words.at_word()) return reading.words.expected("the path of a file");
   reading.include = reading.words.take();
   return true;
 }
 
-/// material NAME diffuse RHO | R G B
+/// material NAME diffuse RHO | R G B, and more: texture, reflect, transmit, highlight
 bool read_material(SceneReading& reading) {
   Token name;
   if (!read_new_name(reading, "the name of a material", &SceneStore::find_material, name)) return false;
-  Material material;
-  if (!read_keys<Material>(reading, kMaterialKeys, kAlways, material)) return false;
-  material.name = reading.store.add_name(name.text);
-  reading.store.add(material);
+  MaterialWords words;
+  if (!read_keys(reading, kMaterialKeys, kAlways, &words)) return false;
+  if (!keep_energy(reading, name, words.material, words.optics)) return false;
+  words.optics.material = static_cast<std::uint32_t>(reading.store.counts().materials);
+  words.material.name = reading.store.add_name(name.text);
+  reading.store.add(words.material);
+  if (does_anything(words.optics)) reading.store.add(words.optics);
   return true;
 }
 

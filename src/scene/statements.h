@@ -16,7 +16,7 @@ namespace shodo {
 
 /// Something whose place in the file is asked for afterwards: a mistake that shows only when the whole scene is known.
 struct Wanted {
-  enum class Kind : std::uint8_t { kNothing, kMesh, kCamera };
+  enum class Kind : std::uint8_t { kNothing, kMesh, kCamera, kPlane };
   Kind kind = Kind::kNothing;
   std::uint32_t index = 0;
 };
@@ -30,10 +30,12 @@ struct SceneReading {
   Wanted wanted;
   Token statement;  // its first word
   Token key;        // the word whose values are being read
+  void* value = nullptr;  // what they are read into
   Token include;    // a path to go on with after the statement
   bool started = false;
   bool unit_given = false;
   bool display_given = false;
+  bool background_given = false;
   std::uint32_t sub_u = 0, sub_v = 0;  // `sub` of the object that the next mesh belongs to; 0: not given
 };
 
@@ -50,6 +52,8 @@ bool read_display(SceneReading& reading);
 bool read_camera(SceneReading& reading);
 bool read_include(SceneReading& reading);
 bool read_material(SceneReading& reading);
+// optics_statements.cpp
+bool read_background(SceneReading& reading);
 // mesh_statements.cpp
 bool read_object(SceneReading& reading);
 bool read_quad(SceneReading& reading);
@@ -57,50 +61,26 @@ bool read_tri(SceneReading& reading);
 bool read_grid(SceneReading& reading);
 bool read_obj(SceneReading& reading);
 bool read_sub(SceneReading& reading);
+bool read_plane(SceneReading& reading);
 // light_statements.cpp
 bool read_light(SceneReading& reading);
+/// Four different corners of a convex quad, in one plane as nearly as it matters.
+bool read_plane_quad(SceneReading& reading, Vec3* corners);
 
 /// A word that values follow, inside a statement; `kinds` and `required` are sets of bits, one a kind of statement.
-template <class T>
 struct Key {
   std::string_view word;
   std::uint32_t kinds;     // where it may stand
   std::uint32_t required;  // where it must
-  bool (*read)(SceneReading& reading, T& value);
+  bool (*read)(SceneReading& reading);
 };
 
-/// "expected <the keys that may stand here> or the end of the line"; always false.
-template <class T>
-bool expected_key(Words& words, std::span<const Key<T>> keys, std::uint32_t kind) {
-  TextBuilder message = words.mistake(words.peek());
-  message.add("expected ");
-  for (const Key<T>& key : keys) {
-    if ((key.kinds & kind) != 0) message.add(key.word).add(", ");
-  }
-  message.add("or the end of the line");
-  add_found(message, words.peek());
-  return false;
-}
-
 /// Reads keys with their values up to the end of the line, in any order, each at most once, none that is required
-/// missing.
+/// missing. The keys' functions find `value` in the reading: it must be what they take it for (value_of).
+bool read_keys(SceneReading& reading, std::span<const Key> keys, std::uint32_t kind, void* value);
 template <class T>
-bool read_keys(SceneReading& reading, std::span<const Key<T>> keys, std::uint32_t kind, T& value) {
-  Words& words = reading.words;
-  std::uint32_t seen = 0;
-  while (words.at_word()) {
-    std::uint32_t k = 0;
-    while (k < keys.size() && ((keys[k].kinds & kind) == 0 || keys[k].word != words.peek().text)) ++k;
-    if (k == keys.size()) return expected_key(words, keys, kind);
-    if ((seen >> k & 1) != 0) return words.expected("this word once only");
-    seen |= std::uint32_t{1} << k;
-    reading.key = words.take();
-    if (!keys[k].read(reading, value)) return false;
-  }
-  for (std::uint32_t k = 0; k < keys.size(); ++k) {
-    if ((keys[k].required & kind) != 0 && (seen >> k & 1) == 0) return words.expected(keys[k].word);
-  }
-  return true;
+T& value_of(SceneReading& reading) {
+  return *static_cast<T*>(reading.value);
 }
 
 /// A lookup of SceneStore's.
@@ -112,6 +92,8 @@ bool read_reference(SceneReading& reading, std::string_view what, FindName find,
 bool read_new_name(SceneReading& reading, std::string_view what, FindName find, Token& name);
 /// One or more of +blocks, -blocks, +shadowed_towards and so on, each once.
 bool read_flags(SceneReading& reading, GivenFlags& flags);
+/// "this library is built without <the word>"; always false.
+bool left_out(SceneReading& reading, const Token& at);
 /// "<the word> is not supported yet"; always false.
 bool not_supported_yet(SceneReading& reading, const Token& at);
 

@@ -9,7 +9,7 @@ namespace {
 constexpr std::string_view kAxes[3] = {"x", "y", "z"};
 constexpr std::string_view kChannels[3] = {"red", "green", "blue"};
 
-void add_what(TextBuilder& message, const What& what) {
+void add_what(MessageText& message, const What& what) {
   message.add(" (");
   if (!what.part.empty()) message.add(what.part).add(" of ");
   message.add(what.name);
@@ -20,8 +20,6 @@ void add_what(TextBuilder& message, const What& what) {
 bool is_name_character(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
 }
-
-double magnitude(double x) { return x < 0 ? -x : x; }
 
 }  // namespace
 
@@ -35,7 +33,7 @@ bool read_number(Words& words, const What& what, const Interval& allowed, double
     words.take();
     return true;
   }
-  TextBuilder message = words.mistake(at);
+  MessageText message = words.mistake(at);
   message.add("expected a number");
   if (is_number) message.add(" from ").add(allowed.low).add(" to ").add(allowed.high);
   add_what(message, what);
@@ -56,7 +54,7 @@ bool read_direction(Words& words, const What& what, Vec3& unit) {
   const Token at = words.peek();
   if (!read_point(words, what, unit)) return false;
   if (unit.x == 0 && unit.y == 0 && unit.z == 0) {
-    TextBuilder message = words.mistake(at);
+    MessageText message = words.mistake(at);
     message.add("expected a direction other than 0 0 0");
     add_what(message, what);
     add_found(message, at);
@@ -89,7 +87,7 @@ bool read_count(Words& words, const What& what, std::uint32_t low, std::uint32_t
     words.take();
     return true;
   }
-  TextBuilder message = words.mistake(at);
+  MessageText message = words.mistake(at);
   message.add("expected a whole number from ").add(low).add(" to ").add(high);
   add_what(message, what);
   add_found(message, at);
@@ -104,7 +102,7 @@ bool read_name(Words& words, std::string_view what, Token& name) {
     name = words.take();
     return true;
   }
-  TextBuilder message = words.mistake(at);
+  MessageText message = words.mistake(at);
   message.add("expected ").add(what);
   if (at.kind == TokenKind::kWord) message.add(" (letters, digits, '_', '-', at most 63)");
   add_found(message, at);

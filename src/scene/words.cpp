@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kLongestQuote = 32;
 
-void add_quoted(TextBuilder& message, std::string_view text) {
+void add_quoted(MessageText& message, std::string_view text) {
   constexpr std::string_view kHex = "0123456789abcdef";
   message.add('\'');
   for (const char c : slice(text, 0, kLongestQuote)) {
@@ -40,7 +40,7 @@ std::string_view problem_text(PathProblem problem) {
 
 }  // namespace
 
-TextBuilder& add_found(TextBuilder& message, const Token& token) {
+MessageText& add_found(MessageText& message, const Token& token) {
   message.add(", found ");
   if (token.kind == TokenKind::kEndOfLine) return message.add("the end of the line");
   if (token.kind == TokenKind::kEndOfFile) return message.add("the end of the file");
@@ -89,7 +89,7 @@ bool Words::enter(const Token& path) {
   }
   std::string_view text;
   if (reader_.read == nullptr || !reader_.read(reader_.context, resolved, text)) {
-    TextBuilder message = mistake(path, StatusCode::kFile);
+    MessageText message = mistake(path, StatusCode::kFile);
     message.add("expected a file that can be read");
     add_found(message, path);
     return false;
@@ -115,15 +115,16 @@ void Words::place(const Token& at) {
   status_.column = at.column;
 }
 
-TextBuilder Words::mistake(const Token& at, StatusCode code) {
+MessageText Words::mistake(const Token& at, StatusCode code) {
   status_ = {};
   status_.code = code;
   place(at);
-  return TextBuilder(status_.message, sizeof status_.message);
+  if constexpr (!features::kMessages) TextBuilder(status_.message, sizeof status_.message).add(at.text);
+  return MessageText(status_.message, sizeof status_.message);
 }
 
-bool Words::expected(const Token& at, std::string_view what) {
-  TextBuilder message = mistake(at);
+bool Words::expected_other(const Token& at, std::string_view what) {
+  MessageText message = mistake(at);
   message.add("expected ").add(what);
   add_found(message, at);
   return false;

@@ -42,9 +42,11 @@ class Words {
   bool included() const { return depth_ > 0; }
 
   /// A mistake at a word of the current file: the rest of the message is to be added to what is returned.
-  TextBuilder mistake(const Token& at, StatusCode code = StatusCode::kScene);
+  MessageText mistake(const Token& at, StatusCode code = StatusCode::kScene);
   /// "expected <what>, found <the word>"; always false.
-  bool expected(const Token& at, std::string_view what);
+  bool expected(const Token& at, std::string_view what) {
+    return expected_other(at, features::kMessages ? what : std::string_view());
+  }
   bool expected(std::string_view what) { return expected(token_, what); }
   /// Gives an error that has a message its position.
   void place(const Token& at);
@@ -56,6 +58,7 @@ class Words {
   };
 
   bool open(std::string_view path, std::string_view text);
+  bool expected_other(const Token& at, std::string_view what);
 
   std::string_view name_, text_;
   const Reader& reader_;
@@ -69,6 +72,6 @@ class Words {
 };
 
 /// Adds ", found <the word>", control characters and other bytes outside ASCII as \xNN, long words cut.
-TextBuilder& add_found(TextBuilder& message, const Token& token);
+MessageText& add_found(MessageText& message, const Token& token);
 
 }  // namespace shodo

@@ -69,7 +69,7 @@ bool fill_box(std::span<const Triangle> triangles, const LatticeBox& box) {
 
 std::uint32_t Blockers::facet_count(const Geometry& geometry) {
   std::uint32_t count = 0;
-  for (const PolygonTriangles& polygon : geometry.cells) count += facets_of(polygon);
+  for (const PolygonTriangles& polygon : geometry.cells) count += geometry.is_pane(polygon) ? 0 : facets_of(polygon);
   for (const PolygonTriangles& polygon : geometry.light_triangles) count += facets_of(polygon);
   return count;
 }
@@ -81,6 +81,7 @@ bool Blockers::build(const Geometry& geometry, Arena& arena) {
   std::uint32_t next = 0;
   for (const std::span<PolygonTriangles> polygons : {geometry.cells, geometry.light_triangles}) {
     for (const PolygonTriangles& polygon : polygons) {
+      if (geometry.is_pane(polygon)) continue;
       for (std::uint32_t k = 0; k < polygon.count; k += 2) {
         Facet& facet = facets_[next++];
         facet.first = polygon.first + k;

@@ -10,6 +10,7 @@
 #include "scene/scene.h"
 #include "shodo/statistics.h"
 #include "shodo/status.h"
+#include "visibility/lattice_box.h"
 
 namespace shodo {
 
@@ -43,13 +44,28 @@ struct PolygonTriangles {
 
 /// Samples, moved in front of their surface, stand less than so many steps off their points, in each coordinate.
 inline constexpr std::int32_t kMostMoved = 24;
+/// A polygon that light passes (visibility/panes.h): its triangles stand with all others but block nothing.
+struct Pane {
+  LatticeBox box;
+  std::uint32_t first = 0, count = 0;
+  Rgb transmit;
+};
 
 struct Geometry {
+  /// Whether a polygon blocks nothing.
+  bool is_pane(const PolygonTriangles& polygon) const {
+    for (const Pane& pane : panes) {
+      if (pane.first == polygon.first && polygon.count > 0) return true;
+    }
+    return false;
+  }
+
   Lattice lattice;
   std::span<Triangle> triangles;      // file order: objects' meshes ascending, then area lights; open lights have none
   std::span<PolygonTriangles> cells;  // per cell of each mesh: Geometry::first_cell[mesh] + cell
   std::span<std::uint32_t> first_cell;          // per mesh
   std::span<PolygonTriangles> light_triangles;  // per light; none for all but area lights that block
+  std::span<Pane> panes;  // ascending triangles; mostly none
   // Meshes ascending, then area lights (open ones too); a spare block of the arena, so that what comes before the
   // picture may have the memory: place_drawn() then.
   std::span<DrawnTriangle> drawn;
@@ -74,6 +90,9 @@ Status build_patches(const Scene& scene, const Geometry& geometry, Arena& arena,
 /// One of them, counted from its mesh's first; the same bits.
 Patch make_patch(const Scene& scene, const Geometry& geometry, std::uint32_t mesh, std::uint32_t local);
 
+/// Whether a piece is under 32 lattice steps wide, so that rounding moves its samples noticeably.
+bool is_thin(const Lattice& lattice, const Piece& piece);
+
 /// How far in from a patch's borders its samples keep, of its sides: 0, or 1/4 for a thin one, whose lattice positions
 /// would leave it otherwise. A sample at parameter s of 0 .. 1 goes to inset + (1 - 2 inset) s.
 double sample_inset(const Patch& patch);
@@ -95,6 +114,12 @@ struct FlatFront {
 FlatFront flat_front(const Geometry& geometry, std::uint32_t mesh, std::uint32_t cell);
 /// Of an area light, open or not.
 FlatFront flat_front(const Scene& scene, const Geometry& geometry, std::uint32_t light);
+
+/// Triangles of a plane quadrilateral for which none block: an opening's, a measuring plane's; how many have an area.
+std::uint32_t lattice_quad(const Lattice& lattice, const Vec3* corners, Triangle (&triangles)[2]);
+FlatFront flat_front(std::span<const Triangle> triangles);
+/// As below, in front of these triangles.
+LatticePoint sample_point(const Lattice& lattice, std::span<const Triangle> own, const Vec3& point);
 
 /// The odd lattice point of a point on cell `cell` of `mesh`, moved by steps of 2 along the dominant axis of the
 /// polygon's normal until strictly in front of the polygon's own triangles there.

@@ -15,7 +15,7 @@ constexpr std::uint32_t kEnoughBacks = 6;
 
 /// A unit vector square to a unit normal, from the axis along which the normal is smallest.
 Vec3 tangent_of(const Vec3& n) {
-  const double x = n.x < 0 ? -n.x : n.x, y = n.y < 0 ? -n.y : n.y, z = n.z < 0 ? -n.z : n.z;
+  const double x = magnitude(n.x), y = magnitude(n.y), z = magnitude(n.z);
   const Vec3 axis = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
   return normalised(cross(axis, n));
 }

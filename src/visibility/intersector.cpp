@@ -62,12 +62,12 @@ struct Intersector::Nearest {
 };
 
 bool Intersector::take_flags(Arena& arena) {
-  flags_stay_ = mode_ != FlagMode::kOff;
-  return mode_ == FlagMode::kOff || flags_.fill(*scene_, mode_ == FlagMode::kScene, arena);
+  flags_stay_ = features::aims(mode_);
+  return !features::aims(mode_) || flags_.fill(*scene_, mode_ == FlagMode::kScene, arena);
 }
 
 bool Intersector::start(Arena& arena) {
-  if (mode_ == FlagMode::kOff) return true;
+  if (!features::aims(mode_)) return true;
   if (!flags_stay_ && !flags_.fill(*scene_, mode_ == FlagMode::kScene, arena)) return false;
   if (!blockers_.build(*geometry_, arena)) return false;
   const std::size_t count = blockers_.facets().size();
@@ -90,7 +90,7 @@ void Intersector::finish() {
 }
 
 std::uint64_t Intersector::bytes(const Geometry& geometry, FlagMode mode) {
-  if (mode == FlagMode::kOff) return 0;
+  if (!features::aims(mode)) return 0;
   const std::uint64_t facets = Blockers::facet_count(geometry);
   return Blockers::bytes(geometry) + 2 * ((4 * facets + 7) / 8 * 8);
 }
@@ -133,7 +133,7 @@ Aim Intersector::aim_along_among(std::span<const std::uint32_t> facets, const La
 }
 
 Aim Intersector::gather_along(const LatticeBox& a, const LatticeVector& direction) {
-  if (!started_) return {};
+  if (!seeking()) return {};
   std::uint32_t count = 0;
   blockers_.visit(Shaft::along(a, direction), [&](std::uint32_t k) { wide_[count++] = k; });
   return {wide_.first(count), false};
@@ -151,13 +151,13 @@ Aim Intersector::keep(const Aim& wide, Shaft shaft, Miss misses) {
 }
 
 Aim Intersector::aim(const LatticeBox& a, const LatticeBox& b, const Link& link) {
-  if (!started_) return {};
+  if (!seeking()) return {};
   if (!flags_.tested(link)) return {{}, false};
   return aim_in(Shaft(a, b), link, wide_);
 }
 
 Aim Intersector::aim(const Ends& a, const Ends& b, const Link& link) {
-  if (!started_) return {};
+  if (!seeking()) return {};
   if (!flags_.tested(link)) return {{}, false};
   const Shaft shaft(a.box, b.box);
   return keep(aim_in(shaft, link, narrow_), shaft,
@@ -165,15 +165,32 @@ Aim Intersector::aim(const Ends& a, const Ends& b, const Link& link) {
 }
 
 Aim Intersector::aim_along(const LatticeBox& a, const LatticeVector& direction, const Link& link) {
-  if (!started_) return {};
+  if (!seeking()) return {};
   if (!flags_.tested(link)) return {{}, false};
   return aim_in(Shaft::along(a, direction), link, wide_);
 }
 
 Aim Intersector::narrow(const Aim& wide, const Ends& a, const Ends& b) {
-  if (wide.any_triangle || wide.facets.empty()) return wide;
+  if (!features::kAims || wide.any_triangle || wide.facets.empty()) return wide;
   return keep(wide, Shaft(a.box, b.box),
               [&](std::span<const Triangle> triangles) { return misses_side(triangles, a.points, b.points); });
+}
+
+/// attempt(triangle) for all that block, ascending, until one says true.
+template <class Try>
+bool Intersector::any_triangle(Try attempt) const {
+  const std::uint32_t count = static_cast<std::uint32_t>(geometry_->triangles.size());
+  std::uint32_t k = 0;
+  for (const Pane& pane : geometry_->panes) {
+    for (; k < pane.first; ++k) {
+      if (attempt(k)) return true;
+    }
+    k += pane.count;
+  }
+  for (; k < count; ++k) {
+    if (attempt(k)) return true;
+  }
+  return false;
 }
 
 /// Flags off: file order. Else the aim's order, in which a blocker comes to the front. From p along d.
@@ -182,12 +199,11 @@ bool Intersector::any_blocks(Blocks blocks, const LatticePoint& p, const Lattice
                              const Aim& aim) {
   ++segments_[index(link.set)];
   std::uint64_t& tests = tests_[index(link.set)];
-  if (aim.any_triangle) {
-    for (const Triangle& triangle : geometry_->triangles) {
+  if (!features::kAims || aim.any_triangle) {
+    return any_triangle([&](std::uint32_t k) {
       ++tests;
-      if (blocks(triangle)) return true;
-    }
-    return false;
+      return blocks(geometry_->triangles[k]);
+    });
   }
   LatticeBox around = box_of(p);
   around.include(p + d);
@@ -227,10 +243,11 @@ bool Intersector::ray_blocked(const LatticePoint& p, const LatticeVector& direct
 
 Hit Intersector::nearest(const LatticePoint& p, const LatticeVector& direction) const {
   Nearest best;
-  if (!blockers_.built()) {
-    for (std::uint32_t k = 0; k < geometry_->triangles.size(); ++k) {
+  if (!features::kAims || !blockers_.built()) {
+    any_triangle([&](std::uint32_t k) {
       best.offer(geometry_->triangles[k], k, p, direction);
-    }
+      return false;
+    });
     return best.hit;
   }
   blockers_.visit(Shaft::along(box_of(p), direction),
@@ -239,7 +256,7 @@ Hit Intersector::nearest(const LatticePoint& p, const LatticeVector& direction) 
 }
 
 Hit Intersector::nearest(const LatticePoint& p, const LatticeVector& direction, const Aim& gathered) const {
-  if (gathered.any_triangle) return nearest(p, direction);
+  if (!features::kAims || gathered.any_triangle) return nearest(p, direction);
   Nearest best;
   for (const std::uint32_t k : gathered.facets) offer(blockers_.facets()[k], p, direction, best);
   return best.hit;

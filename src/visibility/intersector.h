@@ -16,6 +16,7 @@
 #include "visibility/blockers.h"
 #include "visibility/flags.h"
 #include "visibility/geometry.h"
+#include "visibility/panes.h"
 
 namespace shodo {
 
@@ -31,14 +32,14 @@ struct Aim {
   bool any_triangle = true;  // nothing is known: flags off
 
   /// No segment is blocked: none is needed.
-  bool clear() const { return !any_triangle && facets.empty(); }
+  bool clear() const { return features::kAims && !any_triangle && facets.empty(); }
 };
 
 class Intersector {
  public:
-  explicit Intersector(const Geometry& geometry) : geometry_(&geometry) {}
+  explicit Intersector(const Geometry& geometry) : geometry_(&geometry), panes_(geometry) {}
   Intersector(const Geometry& geometry, const Scene& scene, FlagMode mode)
-      : geometry_(&geometry), scene_(&scene), mode_(mode) {}
+      : geometry_(&geometry), scene_(&scene), panes_(geometry), mode_(mode) {}
 
   /// The flags, to outlive the stages; else start() takes them each time. False: the arena is too small.
   bool take_flags(Arena& arena);
@@ -49,7 +50,7 @@ class Intersector {
   bool start(Arena& arena);
   void finish();
   /// Whether aims find anything: between start() and finish(), flags not off.
-  bool seeking() const { return started_; }
+  bool seeking() const { return features::kAims && started_; }
   /// Arena bytes of start() after take_flags().
   static std::uint64_t bytes(const Geometry& geometry, FlagMode mode);
 
@@ -81,6 +82,10 @@ class Intersector {
   /// The same, given what gather_along() found for a box that holds p and this direction.
   Hit nearest(const LatticePoint& p, const LatticeVector& direction, const Aim& gathered) const;
 
+  /// What weakens the light of a segment that isn't blocked.
+  const Panes& panes() const { return panes_; }
+  void set_channel(std::uint32_t channel) { panes_.set_channel(channel); }
+
   std::uint64_t segments(LightSet set) const { return segments_[index(set)]; }
   std::uint64_t tests(LightSet set) const { return tests_[index(set)]; }
 
@@ -102,6 +107,8 @@ class Intersector {
 
   struct Nearest;
   void offer(const Facet& facet, const LatticePoint& p, const LatticeVector& direction, Nearest& best) const;
+  template <class Try>
+  bool any_triangle(Try attempt) const;
   template <class Blocks>
   bool any_blocks(Blocks blocks, const LatticePoint& p, const LatticeVector& d, const Link& link, const Aim& aim);
   template <class Miss>
@@ -114,6 +121,7 @@ class Intersector {
 
   const Geometry* geometry_;
   const Scene* scene_ = nullptr;
+  Panes panes_;
   FlagMode mode_ = FlagMode::kOff;
   bool started_ = false;
   bool flags_stay_ = false;

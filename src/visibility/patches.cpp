@@ -37,6 +37,10 @@ Patch make_patch(const Scene& scene, const Geometry& geometry, std::uint32_t mes
   return patch_of(geometry, mesh, patch_piece(scene, scene.meshes[mesh], local));
 }
 
+bool is_thin(const Lattice& lattice, const Piece& piece) {
+  return !(width_in_steps(lattice, piece, length(piece.vector_area()), piece.longest_side()) >= kThinSteps);
+}
+
 double sample_inset(const Patch& patch) { return patch.thin != 0 ? 0.25 : 0.0; }
 
 Status build_patches(const Scene& scene, const Geometry& geometry, Arena& arena, std::span<Patch>& patches,

@@ -1,7 +1,7 @@
 // Geometry of a scene: the lattice, and the triangles that block and that are drawn (design: exact visibility).
 //
 // What to mend is found in scratch, counted, and found again once the results have their exact size: twice the time,
-// and not a byte of slack. Bytes left: 72 a blocking triangle, 8 a polygon, 4 a mesh, 20 a light; and 68 a drawn one,
+// and not a byte of slack. Bytes left: 72 a blocking triangle, 56 a pane, 8 a polygon, 4 a mesh, 20 a light; and 68 a drawn one,
 // in a spare block. If the light takes that, drawn triangles are found once more before the picture.
 #include "visibility/drawn.h"
 #include "visibility/geometry.h"
@@ -21,6 +21,7 @@ struct Output {
   std::span<DrawnTriangle> drawn;
   std::uint32_t triangle_count = 0;
   std::uint32_t drawn_count = 0;
+  std::uint32_t pane_count = 0;
   std::uint32_t object = 0;  // of the polygon at work
   std::uint32_t mesh = kNone;
   std::uint32_t light = kNone;
@@ -60,9 +61,20 @@ void take_drawn(void* context, const RingVertex& a, const RingVertex& b, const R
   triangle.light = output.light;
 }
 
+Pane pane_of(const Scene& scene, const Geometry& geometry, const PolygonTriangles& range, std::uint32_t mesh) {
+  Pane pane{{}, range.first, range.count, scene.optics_of(scene.meshes[mesh].material)->transmit};
+  for (const Triangle& triangle : geometry.triangles.subspan(range.first, range.count)) {
+    pane.box.include(triangle.a);
+    pane.box.include(triangle.b);
+    pane.box.include(triangle.c);
+  }
+  return pane;
+}
+
 void cut_polygons(const Scene& scene, const Placement& placement, Output& output, Geometry* geometry) {
   PolygonWalk walk(scene, placement);
   Polygon polygon;
+  std::uint32_t panes = 0;
   for (std::uint32_t p = 0; walk.next(polygon); ++p) {
     const std::uint32_t before = output.triangle_count;
     const bool is_light = polygon.light != kNone;
@@ -74,10 +86,18 @@ void cut_polygons(const Scene& scene, const Placement& placement, Output& output
       cut_ring(polygon_ring(scene, placement, p, polygon), placement.sites, false, {take_blocking, &output});
     }
     cut_drawn(scene, placement, p, polygon, {take_drawn, &output});
-    if (geometry == nullptr) continue;
+    if (geometry == nullptr) {
+      const bool pane = !is_light && output.triangle_count > before &&
+                        scene.transmits(scene.meshes[polygon.mesh].material);
+      output.pane_count += pane ? 1 : 0;
+      continue;
+    }
     PolygonTriangles range;
     range.first = before;
     range.count = (output.triangle_count - before) & kMostTriangles;
+    if (range.count > 0 && !is_light && scene.transmits(scene.meshes[polygon.mesh].material)) {
+      geometry->panes[panes++] = pane_of(scene, *geometry, range, polygon.mesh);
+    }
     if (is_light) {
       geometry->light_triangles[polygon.light] = range;
     } else {
@@ -90,6 +110,7 @@ bool take_results(const Scene& scene, Arena& arena, const Output& counted, Geome
   std::uint32_t cells = 0;
   for (const Mesh& mesh : scene.meshes) cells += cell_count(mesh);
   if (!arena.take("triangles", counted.triangle_count, geometry.triangles)) return false;
+  if (!arena.take("panes", counted.pane_count, geometry.panes)) return false;
   if (!arena.take_spare("drawn triangles", counted.drawn_count, geometry.drawn)) return false;
   arena.pin_spares(arena.spares());
   geometry.drawn_count = counted.drawn_count;

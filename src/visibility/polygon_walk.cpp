@@ -7,7 +7,7 @@ namespace {
 /// Whether a cell is a parallelogram to one lattice step.
 bool is_parallelogram(const Piece& cell, const Lattice& lattice) {
   const Vec3 gap = lattice.steps_per_unit * ((cell.corner[0] - cell.corner[1]) + (cell.corner[2] - cell.corner[3]));
-  const double largest[3] = {gap.x < 0 ? -gap.x : gap.x, gap.y < 0 ? -gap.y : gap.y, gap.z < 0 ? -gap.z : gap.z};
+  const double largest[3] = {magnitude(gap.x), magnitude(gap.y), magnitude(gap.z)};
   return largest[0] <= 1 && largest[1] <= 1 && largest[2] <= 1;
 }
 

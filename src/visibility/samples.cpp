@@ -120,14 +120,15 @@ LatticePoint in_front(const Geometry& geometry, const PolygonTriangles& range, L
   return in_front(triangles, range.raise == 0 ? p : raised(triangles, range.raise, p));
 }
 
-/// An open light's polygon, which no triangle stands for.
-std::uint32_t open_light_triangles(const Geometry& geometry, const Light& light, Triangle (&triangles)[2]) {
+}  // namespace
+
+std::uint32_t lattice_quad(const Lattice& lattice, const Vec3* corners, Triangle (&triangles)[2]) {
   std::uint32_t count = 0;
   for (std::uint32_t half = 0; half < 2; ++half) {
     Triangle& triangle = triangles[count];
-    triangle.a = even_point(geometry.lattice, light.corners[0]);
-    triangle.b = even_point(geometry.lattice, light.corners[half + 1]);
-    triangle.c = even_point(geometry.lattice, light.corners[half + 2]);
+    triangle.a = even_point(lattice, corners[0]);
+    triangle.b = even_point(lattice, corners[half + 1]);
+    triangle.c = even_point(lattice, corners[half + 2]);
     triangle.n = cross(triangle.b - triangle.a, triangle.c - triangle.a);
     triangle.d = triangle.n.x * triangle.a.x + triangle.n.y * triangle.a.y + triangle.n.z * triangle.a.z;
     if (!(triangle.n == LatticeVector{})) ++count;
@@ -135,7 +136,11 @@ std::uint32_t open_light_triangles(const Geometry& geometry, const Light& light,
   return count;
 }
 
-}  // namespace
+FlatFront flat_front(std::span<const Triangle> triangles) { return flat_front_of(triangles); }
+
+LatticePoint sample_point(const Lattice& lattice, std::span<const Triangle> own, const Vec3& point) {
+  return in_front(own, odd_point(lattice, point));
+}
 
 FlatFront flat_front(const Geometry& geometry, std::uint32_t mesh, std::uint32_t cell) {
   const PolygonTriangles range = geometry.cells[geometry.first_cell[mesh] + cell];
@@ -146,7 +151,7 @@ FlatFront flat_front(const Scene& scene, const Geometry& geometry, std::uint32_t
   const PolygonTriangles range = geometry.light_triangles[light];
   if (range.count > 0) return flat_front_of(geometry.triangles.subspan(range.first, range.count));
   Triangle triangles[2];
-  const std::uint32_t count = open_light_triangles(geometry, scene.lights[light], triangles);
+  const std::uint32_t count = lattice_quad(geometry.lattice, scene.lights[light].corners, triangles);
   return flat_front_of(std::span<const Triangle>(triangles, count));
 }
 
@@ -162,7 +167,7 @@ LatticePoint light_sample_point(const Scene& scene, const Geometry& geometry, st
   const PolygonTriangles range = geometry.light_triangles[light];
   if (range.count > 0) return in_front(geometry, range, p);
   Triangle triangles[2];
-  const std::uint32_t count = open_light_triangles(geometry, scene.lights[light], triangles);
+  const std::uint32_t count = lattice_quad(geometry.lattice, scene.lights[light].corners, triangles);
   return in_front(std::span<const Triangle>(triangles, count), p);
 }
 

@@ -70,7 +70,7 @@ bool weld_sites(Arena& arena, Placement& placement) {
   placement.sites = placement.sites.first(sites);
   placement.vertex_sites = vertex_sites;
   for (std::uint32_t& site : placement.site_of) {
-    if (site != kNone) site = kept[site];
+    if (site < count) site = kept[site];  // a scene of lights alone has none
   }
   return true;
 }

@@ -198,11 +198,7 @@ struct StoredMatrix {
       RowCursor rows(matrix, g);
       for (std::uint32_t i = 0; i < matrix.surfaces.size(); ++i) {
         const std::uint16_t* row = rows.row(matrix, uncounted, i);
-        if (matrix.doubles()) {
-          for (RowReader<true> e(row, i); e.next();) put(i, e.column(), e.value());
-        } else {
-          for (RowReader<false> e(row, i); e.next();) put(i, e.column(), e.value());
-        }
+        for (RowReader<RowFormat::kEither> e(row, i, matrix.doubles()); e.next();) put(i, e.column(), e.value());
       }
     }
   }

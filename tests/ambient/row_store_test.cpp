@@ -13,7 +13,10 @@ using Entries = std::vector<std::pair<std::uint32_t, double>>;
 template <bool kDoubles>
 Entries read(const std::uint16_t* row, std::uint32_t index) {
   Entries entries;
-  for (RowReader<kDoubles> entry(row, index); entry.next();) entries.emplace_back(entry.column(), entry.value());
+  constexpr RowFormat kFormat = kDoubles ? RowFormat::kDoubles : RowFormat::kShort;
+  for (RowReader<kFormat> entry(row, index, kDoubles); entry.next();) {
+    entries.emplace_back(entry.column(), entry.value());
+  }
   return entries;
 }
 

@@ -15,9 +15,11 @@ TEST(CommandLine, HelpNamesEveryOptionOfTheContract) {
   EXPECT_EQ(help.status, 0);
   EXPECT_EQ(help.err, "");
   for (const char* word :
-       {"render",  "map",         "report", "check",    "-o",      "--memory",   "--flags",      "--rules",       "--tolerance",
-        "--patch", "--sub-patch", "--refine", "--tiers", "--segments", "--scale-rows", "--interpolate", "--row-values",
-        "--size",  "--antialias", "--camera", "--csv",   "--stats",    "--quiet",      "--help",        "--version"}) {
+       {"render",        "map",      "report",       "difference",    "check",        "-o",        "--memory",
+        "--flags",       "--rules",  "--tolerance",  "--patch",       "--sub-patch",  "--refine",  "--tiers",
+        "--segments",    "--size",   "--scale-rows", "--interpolate", "--row-values", "--camera",  "--antialias",
+        "--false-colour", "--isolux", "--show",      "--csv",         "--stats",      "--summary", "--quiet",
+        "--help",        "--version"}) {
     EXPECT_TRUE(contains(help.out, word)) << word;
   }
   EXPECT_EQ(run({"render", "--help"}).out, help.out);

@@ -54,13 +54,13 @@ void room(Options& o) {
 }
 
 constexpr Case kCases[] = {
-    {"box", "tests/cli/scenes/box.scn", small, Scarce::kAlways, true},
-    {"sun", "tests/cli/scenes/sun.scn", small, Scarce::kNever, false},
-    {"shapes", "tests/cli/scenes/shapes.scn", shapes, Scarce::kNever, false},
-    {"rules", "tests/cli/scenes/shapes.scn", papers_rules, Scarce::kNever, false},
-    {"rule2+", "tests/cli/scenes/box.scn", repeated_rule2, Scarce::kNever, false},
-    {"blocks", "tests/cli/scenes/box.scn", blocks, Scarce::kIfFast, false},
-    {"day", "data/day.scn", room, Scarce::kNever, false},
+    {"box", "tests/cli/scenes/box.scn", small, Scarce::kAlways, true, true},
+    {"sun", "tests/cli/scenes/sun.scn", small, Scarce::kNever, false, false},
+    {"shapes", "tests/cli/scenes/shapes.scn", shapes, Scarce::kNever, false, false},
+    {"rules", "tests/cli/scenes/shapes.scn", papers_rules, Scarce::kNever, false, false},
+    {"rule2+", "tests/cli/scenes/box.scn", repeated_rule2, Scarce::kNever, false, false},
+    {"blocks", "tests/cli/scenes/box.scn", blocks, Scarce::kIfFast, false, false},
+    {"day", "data/day.scn", room, Scarce::kNever, false, false},
 };
 
 }  // namespace

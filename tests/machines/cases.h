@@ -20,6 +20,7 @@ struct Case {
   void (*choose)(shodo::Options&);
   Scarce scarce;
   bool sent;                          // its picture leaves the machine as it is drawn
+  bool lean;                          // the lean library (tools/machines) can do it; else it must refuse
 };
 
 std::span<const Case> all_cases();
@@ -44,6 +45,7 @@ struct Machine {
 
 /// Runs all cases, or the one of that name, and compares with hashes.h. Prints a line a case, and one of all:
 ///   case NAME maps H picture H same|differs peak BYTES
+///   case NAME refused WORD or MESSAGE             of a library built without what it needs (base/features.h)
 ///   all maps H picture H same|differs peak BYTES
 /// The process's exit status: 0 if all hashes are the constants, else 1.
 int run_cases(const Machine& machine, std::string_view only);

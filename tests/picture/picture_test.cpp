@@ -33,6 +33,19 @@ TEST(DisplayTable, IsTheSrgbFormulaAndAscends) {
   }
 }
 
+// The hyperbola joins the line at half of the range with the same slope, and goes to white without reaching it.
+TEST(DisplaySteps, RollOffIsTheStatedCurve) {
+  Display clipped{1, 101, false}, rolled{1, 101, true};
+  for (int k = 0; k <= 2000; ++k) {
+    const double luminance = 0.5 * k, v = (luminance - 1) / 100;
+    const double shown = v <= 0 ? 0 : v <= 0.5 ? v : 1 - 1 / (4 * v);
+    EXPECT_NEAR(luminance_steps(rolled, luminance), 8192 * shown, 0.5001) << luminance;
+    EXPECT_NEAR(luminance_steps(clipped, luminance), std::min(8192 * std::max(v, 0.0), 65535.0), 0.5001) << luminance;
+  }
+  EXPECT_EQ(luminance_steps(rolled, 101), 6144);
+  EXPECT_EQ(luminance_steps(rolled, 1e9), 8192);
+}
+
 TEST(DisplaySteps, RoundAndClamp) {
   EXPECT_EQ(display_steps(0), 0);
   EXPECT_EQ(display_steps(1), 8192);
@@ -166,7 +179,19 @@ TEST(Picture, AntialiasingIsTheMeanOfSamples) {
   }
 }
 
-TEST(Picture, DoesNotDependOnTheOrderOfTriangles) {
+TEST(Picture, RefusesSizesBeyondSixteenThousand) {
+  for (const std::uint32_t wrong : {0u, 16385u}) {
+    for (const bool high : {false, true}) {
+      Wall scene;
+      (high ? scene.options.height : scene.options.width) = wrong;
+      const Status status = draw_picture(scene.scene, scene.geometry, scene.maps, scene.options, {}, scene.arena(), {});
+      EXPECT_EQ(status.code, StatusCode::kUsage);
+    }
+  }
+}
+
+// But those of a polygon keep theirs: the first carries the map of all (map_plane.h).
+TEST(Picture, DoesNotDependOnTheOrderOfPolygons) {
   Wall scene;
   std::mt19937 random(9);
   for (float& e : scene.direct_lx) e = static_cast<float>(random() % 1500);
@@ -179,7 +204,11 @@ TEST(Picture, DoesNotDependOnTheOrderOfTriangles) {
   scene.options.antialias = 4;
   const std::vector<std::uint8_t> rgb = scene.draw(scene.options);
   for (int turn = 0; turn < 3; ++turn) {
-    for (std::size_t k = scene.drawn.size(); k-- > 1;) std::swap(scene.drawn[k], scene.drawn[random() % (k + 1)]);
+    for (std::size_t k = scene.drawn.size() / 2; k-- > 1;) {
+      const std::size_t other = random() % (k + 1);
+      std::swap(scene.drawn[2 * k], scene.drawn[2 * other]);
+      std::swap(scene.drawn[2 * k + 1], scene.drawn[2 * other + 1]);
+    }
     EXPECT_EQ(scene.draw(scene.options), rgb);
   }
 }

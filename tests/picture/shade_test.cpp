@@ -1,10 +1,11 @@
-// Map coordinates against exact rationals, and lookups against the formula in doubles.
+// Map coordinates against exact rationals.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
 #include "picture/drawn_scene.h"
+#include "picture/map_plane.h"
 #include "picture/shade.h"
 
 namespace shodo {
@@ -26,14 +27,15 @@ Worst worst_coordinates(DrawnScene& scene, const SampleGrid& grid) {
   for (std::uint32_t y = 0; y < grid.rows; ++y) {
     lines.begin_row(y);
     for (VisibleSpan span; lines.next(span);) {
-      MapWalk walk(lines.active(span.active), scene.drawn[span.triangle], grid, static_cast<std::int32_t>(y), span.x0,
-                   span.x1);
+      MapWalk walk(lines.active(span.active), scene.drawn[lines.map_of(span.triangle)], grid,
+                   static_cast<std::int32_t>(y), span.x0, span.x1);
       std::int32_t x = span.x0;
       for (MapPiece piece; walk.next(piece); ++worst.pieces) {
         EXPECT_EQ(piece.x, x);
         for (std::int32_t k = 0; k < piece.length; ++k, ++x) {
           const auto truth = twin.map_point(span.triangle, x, y);
-          const long double u = (piece.u + k * piece.du) / 4096.0L, v = (piece.v + k * piece.dv) / 4096.0L;
+          const long double u = piece.u / 4096.0L + k * (piece.du / 65536.0L),
+                            v = piece.v / 4096.0L + k * (piece.dv / 65536.0L);
           worst.error =
               std::max(worst.error, static_cast<double>(std::max(std::fabs(u - truth[0]), std::fabs(v - truth[1]))));
           ++worst.samples;
@@ -103,66 +105,61 @@ TEST(MapWalk, DividesSeldomWhereItMay) {
   DrawnScene scene;
   scene.mapped_quad({-9000, -9000, -4000}, {9000, -9000, -4000}, {9000, 9000, -4000}, {-9000, 9000, -4000}, 50, 50);
   const Worst worst = worst_coordinates(scene, grid_for(camera_at({0, 0, 0}, {0, 0, -1}, 65), 640, 100));
-  // One piece for 32 samples of a wall seen squarely, and the remainders of two triangles a line.
-  EXPECT_LT(worst.pieces, worst.samples / 32 + 3 * 100);
+  // One piece for 128 samples of a wall seen squarely, and the remainders of two triangles a line.
+  EXPECT_LT(worst.pieces, worst.samples / 128 + 3 * 100);
 }
 
-struct TestMap {
-  TestMap(std::int32_t width, std::int32_t height, std::uint32_t channels, bool wraps) {
-    std::mt19937 random(4);
-    values.resize(static_cast<std::size_t>(width * height) * channels);
-    for (auto& v : values) v = static_cast<std::uint16_t>(random() % 65536);
-    texels = {values.data(), width, height, channels, wraps};
-  }
-  double at(double u, double v, std::uint32_t c) const {
-    const auto texel = [&](int x, int y) {
-      x = texels.wraps_u ? (x % texels.width + texels.width) % texels.width
-                         : std::min(std::max(x, 0), texels.width - 1);
-      y = std::min(std::max(y, 0), texels.height - 1);
-      return double{1} * values[static_cast<std::size_t>(y * texels.width + x) * texels.channels + c];
+/// A parallelogram as a polygon whose sides others touch is drawn: many thin triangles, coordinates rounded to 1/256.
+void fan(DrawnScene& scene, const LatticePoint& at, const LatticeVector& u, const LatticeVector& v,
+         std::mt19937& random) {
+  struct Corner {
+    LatticePoint point;
+    std::int32_t u, v;
+  };
+  const auto corner = [&](std::int32_t s, std::int32_t t) {  // 1/64 of the sides
+    const auto even = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
+      return static_cast<std::int32_t>(a + 2 * ((b * s + c * t) / 128));
     };
-    const double x = std::floor(u - 0.5), y = std::floor(v - 0.5), s = u - 0.5 - x, t = v - 0.5 - y;
-    const int ix = static_cast<int>(x), iy = static_cast<int>(y);
-    return (1 - t) * ((1 - s) * texel(ix, iy) + s * texel(ix + 1, iy)) +
-           t * ((1 - s) * texel(ix, iy + 1) + s * texel(ix + 1, iy + 1));
-  }
-  std::vector<std::uint16_t> values;
-  MapTexels texels;
-};
-
-// Weights are cut to 1/256: up to 65535 / 256 an axis, and rounding 1/2.
-TEST(MapTexels, AreLookedUpBilinearly) {
-  for (const bool wraps : {false, true}) {
-    for (const std::int32_t width : {1, 2, 7}) {
-      const TestMap map(width, 3, 3, wraps);
-      for (std::int32_t u = -3000; u < 4096 * width + 3000; u += 97) {
-        for (std::int32_t v = -3000; v < 4096 * 3 + 3000; v += 997) {
-          const double value = map_value(map.texels, u, v, 1);
-          EXPECT_NEAR(value, map.at(u / 4096.0, v / 4096.0, 1), 2 * 65535.0 / 256 + 0.5);
-        }
-      }
-      // At centres of texels the value is the texel's.
-      for (std::int32_t u = 0; u < width; ++u) {
-        EXPECT_EQ(map_value(map.texels, 4096 * u + 2048, 4096 + 2048, 2),
-                  map.values[static_cast<std::size_t>(width + u) * 3 + 2]);
-      }
+    return Corner{{even(at.x, u.x, v.x), even(at.y, u.y, v.y), even(at.z, u.z, v.z)}, s * 20 * 4 + s % 3, t * 30 * 4};
+  };
+  std::vector<Corner> ring{corner(0, 0)};
+  const auto step = [&] { return 1 + static_cast<std::int32_t>(random() % 20); };
+  for (std::int32_t s = step(); s < 64; s += step()) ring.push_back(corner(s, 0));
+  ring.push_back(corner(64, 0));
+  ring.push_back(corner(64, 64));
+  ring.push_back(corner(0, 64));
+  for (std::size_t k = 1; k + 1 < ring.size(); ++k) {
+    const Corner* three[3] = {&ring[0], &ring[k], &ring[k + 1]};
+    if (k + 3 < ring.size()) three[0] = &ring[ring.size() - 2];  // not from a corner on the same side
+    if (k + 3 == ring.size()) three[0] = &ring[ring.size() - 1], three[1] = &ring[0], three[2] = &ring[k + 1];
+    const std::uint32_t t = scene.triangle(three[0]->point, three[1]->point, three[2]->point);
+    for (std::size_t c = 0; c < 3; ++c) {
+      scene.drawn[t].u[c] = three[c]->u;
+      scene.drawn[t].v[c] = three[c]->v;
     }
   }
 }
 
-TEST(MapTexels, PiecesAddWhatLookupsGiveAtMostWhite) {
-  const TestMap map(9, 5, 3, false);
-  const MapPiece piece{6, 23, -500, 9000, 1700, 431};
-  for (const std::uint32_t shift : {0u, 1u, 2u}) {
-    std::vector<std::uint32_t> sums(40 * 3, 5), expected = sums;
-    add_piece(map.texels, piece, shift, sums);
-    for (std::int32_t k = 0; k < piece.length; ++k) {
-      for (std::uint32_t c = 0; c < 3; ++c) {
-        const std::uint32_t value = map_value(map.texels, piece.u + k * piece.du, piece.v + k * piece.dv, c);
-        expected[(static_cast<std::uint32_t>(piece.x + k) >> shift) * 3 + c] += std::min(value, kWhite);
-      }
+// Triangles of one plane take one map, but coordinates are right for each by its own corners. Walls square to an axis
+// stay planes on the lattice; tilted ones are off by a step, and each triangle keeps its own map.
+TEST(MapWalk, IsWithinASixteenthOfASubPatchWhereTrianglesShareAMap) {
+  std::mt19937 random(6);
+  for (const bool tilted : {false, true}) {
+    std::uint32_t shared = 0, own = 0;
+    for (int round = 0; round < 20; ++round) {
+      DrawnScene scene;
+      const std::int64_t tilt = tilted ? 1501 : 0;
+      fan(scene, {-20000, -8000, -20000}, {40000, tilt, 0}, {0, 0, 30000}, random);
+      fan(scene, {-20000, -8000, -20000}, {0, 20000, tilt}, {40000, 0, 3 * tilt}, random);
+      const Worst worst =
+          worst_coordinates(scene, grid_for(camera_at({100.0 * round, 0, 9000}, {0, -500, -9000}, 70), 100, 80));
+      EXPECT_GT(worst.samples, 3000u);
+      EXPECT_LE(worst.error, 1.0 / 16);
+      std::vector<std::uint32_t> map_of(scene.drawn.size());
+      find_map_planes(scene.drawn, map_of);
+      for (std::uint32_t t = 0; t < map_of.size(); ++t) ++(map_of[t] == t ? own : shared);
     }
-    EXPECT_EQ(sums, expected);
+    EXPECT_EQ(shared > own, !tilted) << shared << ' ' << own;
   }
 }
 

@@ -14,7 +14,7 @@
 namespace shodo {
 namespace {
 
-const char* const kScenes[] = {"sun.scn", "box.scn", "shapes.scn"};
+const char* const kScenes[] = {"sun.scn", "box.scn", "shapes.scn", "glass.scn"};
 
 /// One scene in one piece of memory.
 class Pipeline {

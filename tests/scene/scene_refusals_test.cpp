@@ -51,8 +51,8 @@ TEST(SceneRefusals, TheVersionStandsFirstAndOnce) {
 
 TEST(SceneRefusals, UnknownStatements) {
   expect_refused(after_start("foo 1 2", 1,
-                             "expected a statement (camera, display, grid, include, light, material, obj, "
-                             "object, quad, sub, tri, unit), found 'foo'"));
+                             "expected a statement (background, camera, display, grid, include, light, material, obj, "
+                             "object, plane, quad, sub, tri, unit), found 'foo'"));
   expect_refused(after_start("  Quad", 3, "found 'Quad'"));
   expect_refused(after_start("\t\tquads", 3, "found 'quads'"));
   expect_refused(after_start(std::string(300, 'x'), 1, "found 'xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx...'"));
@@ -97,7 +97,8 @@ TEST(SceneRefusals, TooFewAndTooManyNumbers) {
   expect_refused(after_start("quad m 0 0 0  0 0 1  1 0 1  1 0", 32, "z of corner 4"));
   expect_refused(after_start("grid m 2 2 0 0 0  0 0 1  1 0 1  1 0", 36, "z of vertex 4"));
   expect_refused(after_start("display 1", 10, "display maximum"));
-  expect_refused(after_start("display 1 2 3", 13, "expected the end of the line, found '3'"));
+  expect_refused(after_start("display 1 2 3", 13, "expected clip, roll or the end of the line, found '3'"));
+  expect_refused(after_start("display 1 2 roll 3", 18, "expected the end of the line, found '3'"));
   expect_refused(after_start("unit m m", 8, "expected the end of the line"));
   expect_refused(
       after_start("material n diffuse 0.5 0.5", 27, "expected a number (blue of diffuse), found the end of the"));
@@ -154,9 +155,6 @@ TEST(SceneRefusals, Materials) {
 
 TEST(SceneRefusals, WhatIsStillToCome) {
   expect_refused(after_start("material n diffuse 0.5 texture oak.ppm", 24, "'texture' is not supported yet"));
-  expect_refused(after_start("material n diffuse 0.5 reflect 0.1", 24, "'reflect' is not supported yet"));
-  expect_refused(after_start("material n diffuse 0.5 transmit 0.1", 24, "'transmit' is not supported yet"));
-  expect_refused(after_start("material n diffuse 0.5 highlight 0.1 3", 24, "'highlight' is not supported yet"));
   expect_refused(after_start("obj chair.obj", 1, "'obj' is not supported yet"));
   expect_refused(
       after_start("light l point at 0 0 0 towards 0 -1 0 ies a.ies turn 90", 39, "'ies' is not supported yet"));

@@ -45,6 +45,9 @@ TEST(SceneStatements, Display) {
   const LoadedScene display("shodo 1\ndisplay 0 80.5");
   EXPECT_EQ(display.scene.display.min_cd_m2, 0);
   EXPECT_EQ(display.scene.display.max_cd_m2, 80.5);
+  EXPECT_FALSE(display.scene.display.roll);
+  EXPECT_TRUE(LoadedScene("shodo 1\ndisplay 0 80.5 roll").scene.display.roll);
+  EXPECT_FALSE(LoadedScene("shodo 1\ndisplay 0 80.5 clip").scene.display.roll);
 }
 
 TEST(SceneStatements, CameraWithItsWordsInAnyOrder) {

@@ -167,6 +167,7 @@ struct Space {
 Leaks turned_scenes(int count, int segments, std::uint64_t seed,
                     const std::function<void(HandMadeScene&, Random&, Space&)>& make) {
   Random random(seed);
+  segments = soaked(segments);
   Leaks all;
   int leaky = 0;
   for (int k = 0; k < count; ++k) {

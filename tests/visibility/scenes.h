@@ -149,6 +149,13 @@ inline Vec3 turned(const Vec3& v, const Vec3& axis, double angle) {
 }
 
 /// A small generator of its own, so that every machine tests the same cases (splitmix64).
+/// Cases of a test that can go on for longer: `make soak` sets SHODO_SOAK to how many times as many.
+inline int soaked(int cases) {
+  const char* times = std::getenv("SHODO_SOAK");
+  const int factor = times == nullptr ? 1 : std::atoi(times);
+  return cases * (factor > 1 ? factor : 1);
+}
+
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}

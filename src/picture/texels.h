@@ -1,0 +1,42 @@
+// A mesh's map on the screen (paper 2.4): bilinear lookup for the samples of a piece, without one for each of them.
+//
+// Between the centres of four texels, a cell, the map is a + b p + c q + d p q, and p and q are linear along a piece
+// (shade.h). So the value is a parabola in the sample's number: it is set up once where the piece enters a cell, and
+// two additions a channel take it from sample to sample. A room's walls have some 11 samples to a cell.
+//
+// Approximate: values have 13 fraction bits of a display step, and fall short of the formula by at most 0.27 step
+// (3 + 3 k + k (k - 1) / 2 units after k samples, of which there are 64 at most), before they are rounded to the
+// nearest step: so they are never negative.
+#pragma once
+
+#include <cstdint>
+
+#include "picture/shade.h"
+
+namespace shodo {
+
+/// A mesh's part of the display maps. Texel centres are sub-patch centres; lookups clamp at the border of a map, or go
+/// round (Mesh::wraps_u).
+struct MapTexels {
+  const std::uint16_t* texel = nullptr;
+  std::int32_t width = 0, height = 0;
+  std::uint32_t channels = 1;
+  bool wraps_u = false;
+};
+
+/// Where a row of samples goes: with one sample a pixel to the screen at once, else to the sums of its pixels.
+struct SampleRow {
+  const std::uint8_t* level = nullptr;  // sRGB of display steps 0 .. white
+  std::uint8_t* rgb = nullptr;          // 3 a pixel
+  std::uint32_t* sums = nullptr;        // [pixel * channels + channel]
+  std::uint32_t shift = 0;              // 2^shift samples across a pixel; above 0: to the sums
+  std::uint32_t channels = 1;
+};
+
+/// Samples x0 <= x < x1 show the same; `steps` by channel, at most white.
+void show_plain(const SampleRow& row, std::int32_t x0, std::int32_t x1, const std::uint32_t (&steps)[3]);
+
+/// The samples of a piece, at most white each.
+void show_piece(const MapTexels& map, const MapPiece& piece, const SampleRow& row);
+
+}  // namespace shodo

@@ -1,0 +1,220 @@
+// Mirrors, glass, highlights and the background against a slow ray caster (support/optics_twin.h): one display step.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "picture/picture.h"
+#include "picture/view.h"
+#include "support/optics_twin.h"
+#include "support/scene_from_text.h"
+#include "visibility/geometry.h"
+
+namespace shodo {
+namespace {
+
+/// A room, 4 x 3 x 4, that one looks into from its middle; lit by made-up maps, so that only the picture is tested.
+const std::string kRoom =
+    "shodo 1\n"
+    "display 1 250\n"
+    "camera main eye 2.3 1.6 3.4 look 1.7 1.1 0 up 0 1 0 fov 70\n"
+    "material wall diffuse 0.7 0.6 0.5\n"
+    "material grey diffuse 0.5\n"
+    "material mirror diffuse 0.05 reflect 0.9\n"
+    "material chrome diffuse 0.10 reflect 0.70\n"
+    "material gold diffuse 0.2 reflect 0.7 0.5 0.2\n"
+    "material glass diffuse 0.02 transmit 0.85\n"
+    "material red diffuse 0.02 transmit 0.9 0.1 0.1\n"
+    "material blue diffuse 0.1 reflect 0.1 transmit 0.05 0.2 0.7\n"
+    "material lacquer diffuse 0.40 0.05 0.05 highlight 0.3 80\n"
+    "material satin diffuse 0.3 highlight 0.4 6\n"
+    "object room\n"
+    "quad wall 0 0 0  0 0 4  4 0 4  4 0 0  patches 4 4 sub 1 1\n"
+    "quad wall 0 3 0  4 3 0  4 3 4  0 3 4  patches 4 4 sub 1 1\n"
+    "quad wall 0 0 0  0 3 0  0 3 4  0 0 4  patches 4 4 sub 1 1\n"
+    "quad wall 4 0 0  4 0 4  4 3 4  4 3 0  patches 4 4 sub 1 1\n"
+    "quad wall 0 0 4  0 3 4  4 3 4  4 0 4  patches 4 4 sub 1 1\n";
+const std::string kBackWall = "quad grey 0 0 0  4 0 0  4 3 0  0 3 0  patches 4 4 sub 1 1\n";
+
+struct Outcome {
+  std::size_t pixels = 0, off = 0, unexplained = 0;
+  std::vector<std::uint8_t> rgb;
+};
+
+class OpticsScene {
+ public:
+  OpticsScene(const std::string& text, const Options& options) : options_(options), loaded_(text, options) {
+    EXPECT_TRUE(place_scene(loaded_.scene, loaded_.arena, geometry_).done());
+    const Scene& scene = loaded_.scene;
+    direct_.resize(std::size_t{scene.sub_patch_count} * scene.channels);
+    ambient_.resize(direct_.size());
+    for (std::size_t k = 0; k < direct_.size(); ++k) {
+      // Gentle, since the scanline's map coordinates are right to 1/16 sub-patch only.
+      direct_[k] = static_cast<float>(250 + 20 * std::sin(0.7 * static_cast<double>(k / scene.channels)));
+    }
+    maps_.direct_lx = direct_;
+    maps_.ambient_lx = ambient_;
+  }
+
+  std::vector<std::uint8_t> draw() {
+    std::vector<std::uint8_t> rgb;
+    LineSink sink;
+    sink.context = &rgb;
+    sink.line = [](void* context, std::uint32_t, std::span<const std::uint8_t> line) {
+      auto& all = *static_cast<std::vector<std::uint8_t>*>(context);
+      all.insert(all.end(), line.begin(), line.end());
+      return true;
+    };
+    const std::size_t before = loaded_.arena.used();
+    EXPECT_TRUE(draw_picture(loaded_.scene, geometry_, maps_, options_, {}, loaded_.arena, sink).done());
+    EXPECT_EQ(loaded_.arena.used(), before);
+    return rgb;
+  }
+
+  /// A pixel that is off is explained if its samples, moved by up to a hundredth of their distance, show both values
+  /// or what is between: it lies on an edge, where rounded directions and points decide otherwise.
+  Outcome compare() {
+    Outcome outcome;
+    outcome.rgb = draw();
+    const View view = view_of(loaded_.scene.cameras[0], geometry_.lattice, options_.width, options_.height);
+    const SampleGrid grid = sample_grid(view, options_.width, options_.height, options_.antialias);
+    const OpticsTwin twin(loaded_.scene, geometry_, maps_, grid);
+    for (std::uint32_t y = 0; y < options_.height; ++y) {
+      for (std::uint32_t x = 0; x < options_.width; ++x) {
+        const std::uint8_t* const found = &outcome.rgb[3 * (std::size_t{y} * options_.width + x)];
+        ++outcome.pixels;
+        if (agrees(found, twin.level(x, y))) continue;
+        ++outcome.off;
+        if (!explained(twin, found, x, y)) ++outcome.unexplained;
+      }
+    }
+    return outcome;
+  }
+
+  Scene& scene() { return loaded_.scene; }
+  Geometry& geometry() { return geometry_; }
+
+ private:
+  static bool agrees(const std::uint8_t* found, const std::array<int, 3>& level) {
+    for (int c = 0; c < 3; ++c) {
+      if (std::abs(found[c] - level[c]) > 1) return false;
+    }
+    return true;
+  }
+  static bool explained(const OpticsTwin& twin, const std::uint8_t* found, std::uint32_t x, std::uint32_t y) {
+    int low[3] = {255, 255, 255}, high[3] = {0, 0, 0};
+    for (const double dx : {-0.01, 0.0, 0.01}) {
+      for (const double dy : {-0.01, 0.0, 0.01}) {
+        const std::array<int, 3> level = twin.level(x, y, dx, dy);
+        for (int c = 0; c < 3; ++c) low[c] = std::min(low[c], level[c]), high[c] = std::max(high[c], level[c]);
+      }
+    }
+    for (int c = 0; c < 3; ++c) {
+      if (found[c] < low[c] - 1 || found[c] > high[c] + 1) return false;
+    }
+    return true;
+  }
+
+  Options options_;
+  LoadedScene loaded_;
+  Geometry geometry_;
+  std::vector<float> direct_, ambient_;
+  IlluminanceMaps maps_;
+};
+
+Options small(std::uint32_t width = 160, std::uint32_t height = 120, std::uint32_t antialias = 1) {
+  Options options;
+  options.width = width;
+  options.height = height;
+  options.antialias = antialias;
+  return options;
+}
+
+void expect_as_twin(const std::string& text, const Options& options = small()) {
+  OpticsScene scene(text, options);
+  const Outcome outcome = scene.compare();
+  EXPECT_LE(outcome.off * 1000, outcome.pixels) << outcome.off << " of " << outcome.pixels;
+  EXPECT_EQ(outcome.unexplained, 0u);
+}
+
+TEST(PictureOptics, PlaneMirrorsShowWhatARayCasterSees) {
+  expect_as_twin(kRoom + kBackWall +
+                 "object m\nquad mirror 0.5 0.5 0.1  2.5 0.5 0.3  2.5 2.5 0.3  0.5 2.5 0.1\n"
+                 "quad chrome 3.9 0.2 0.5  3.7 0.2 3.0  3.7 2.0 3.0  3.9 2.0 0.5\n"
+                 "object box\nquad grey 1 0 1.5  1 0 2  1 0.8 2  1 0.8 1.5\nquad grey 2 0 2 2 0 1.5 2 0.8 1.5 2 0.8 2\n"
+                 "quad grey 1 0 2 2 0 2 2 0.8 2 1 0.8 2\nquad gold 1 0.8 1.5 1 0.8 2 2 0.8 2 2 0.8 1.5\n");
+}
+
+TEST(PictureOptics, MirrorsFacingEachOtherReflectUpToTheStatedDepth) {
+  expect_as_twin(kRoom + kBackWall +
+                 "object m\nquad mirror 0.1 0.3 0.2  0.1 2.7 0.2  0.1 2.7 3.8  0.1 0.3 3.8\n"
+                 "quad mirror 3.9 0.3 3.8  3.9 2.7 3.8  3.9 2.7 0.2  3.9 0.3 0.2\n");
+}
+
+TEST(PictureOptics, FacetedMirrorsReflectFacetByFacet) {
+  std::string lower, upper;
+  for (int k = 0; k <= 12; ++k) {
+    const double a = 2 * M_PI * (k % 12) / 12, x = 1.8 + 0.7 * std::cos(a), z = 1.4 - 0.7 * std::sin(a);
+    lower += " " + std::to_string(x) + " 0.2 " + std::to_string(z);
+    upper += " " + std::to_string(x) + " 2.2 " + std::to_string(z);
+  }
+  expect_as_twin(kRoom + kBackWall + "object column\ngrid chrome 13 2" + upper + lower + "\n");
+}
+
+TEST(PictureOptics, PanesThatOverlapAndCrossAreCompositedInDepthOrder) {
+  expect_as_twin(kRoom + kBackWall +
+                 "object panes\nquad glass 0.5 0.2 1.0  2.5 0.2 0.6  2.5 2.2 0.6  0.5 2.2 1.0\n"
+                 "quad red 1.0 0.1 0.4  2.2 0.1 1.6  2.2 1.9 1.6  1.0 1.9 0.4\n"
+                 "quad blue 1.5 0.3 1.5  3.2 0.3 0.5  3.0 2.0 0.6  1.4 2.4 1.4\n"
+                 "quad red 3.2 0.3 2.0  1.5 0.3 1.9  1.5 1.0 1.9  3.2 1.0 2.0\n");
+}
+
+TEST(PictureOptics, APaneOfManyTrianglesCountsOnceOnItsSeams) {
+  // The camera looks square at the pane, so that columns and rows of samples lie on its seams; all show the wall by
+  // 0.85 and nothing else.
+  std::string pane = "object pane\n";
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      const std::string x0 = std::to_string(0.5 * i - 1), x1 = std::to_string(0.5 * i - 0.5),
+                        y0 = std::to_string(0.5 * j - 1), y1 = std::to_string(0.5 * j - 0.5);
+      pane += "quad clear " + x0 + " " + y0 + " 0  " + x1 + " " + y0 + " 0  " + x1 + " " + y1 + " 0  " + x0 + " " + y1 +
+              " 0  patches 1 1 sub 1 1\n";
+    }
+  }
+  const std::string text =
+      "shodo 1\ndisplay 0 100\ncamera main eye 0 0 2 look 0 0 0 up 0 1 0 fov 40\n"
+      "material clear diffuse 0 transmit 0.85\nmaterial m diffuse 0.5\n"
+      "object wall\nquad m -4 -4 -1  4 -4 -1  4 4 -1  -4 4 -1  patches 1 1 sub 1 1\n" + pane;
+  OpticsScene scene(text, small(64, 64));
+  const std::vector<std::uint8_t> rgb = scene.draw();
+  for (const std::uint8_t level : rgb) EXPECT_EQ(level, rgb[0]);
+  EXPECT_GT(rgb[0], 0);
+}
+
+TEST(PictureOptics, HighlightsOfAllKindsOfLights) {
+  const std::string block =
+      "object top\nquad lacquer 0.8 0.6 0.8  0.8 0.6 2.6  3.2 0.6 2.6  3.2 0.6 0.8\n"
+      "object rest\nquad satin 0.3 0.1 0.1  3.7 0.1 0.1  3.7 2.9 0.1  0.3 2.9 0.1\n"
+      "object bar\nquad grey 1.5 1.2 1.0  1.7 1.2 1.0  1.7 1.3 1.0  1.5 1.3 1.0\n"
+      "quad red 2.4 1.1 0.6  2.9 1.1 0.6  2.9 1.8 0.6  2.4 1.8 0.6\n";
+  expect_as_twin(kRoom + kBackWall + block + "light p point at 1.5 2.5 0.5 intensity 200\n"
+                 "light q point at 2.8 2.7 1.5 towards 0 -1 0 intensity 300 cosine 3 colour 1 0.5 0.2\n");
+  expect_as_twin(kRoom + block + "light s sun towards 0.2 -0.5 0.8 illuminance 2000\n");
+  expect_as_twin(kRoom + kBackWall + block + "light a area quad 1 2.5 0.6  2.2 2.5 0.6  2.2 2.5 1.2  1 2.5 1.2 "
+                 "luminance 3000\n", small(64, 48));
+  expect_as_twin(kRoom + kBackWall + block + "object lamp\nquad grey 1.6 2.2 0.8  1.9 2.2 0.8  1.9 2.2 1.1  1.6 2.2 1.1\n"
+                 "quad grey 1.6 2.2 1.1  1.6 2.5 1.1  1.9 2.5 1.1  1.9 2.2 1.1\n"
+                 "quad grey 1.6 2.2 0.8  1.6 2.5 0.8  1.9 2.5 0.8  1.9 2.2 0.8\n"
+                 "light l polyhedron object lamp luminance 2500\n", small(64, 48));
+}
+
+TEST(PictureOptics, TheBackgroundIsSeenByDirectionThroughOpeningsToo) {
+  expect_as_twin(kRoom + "background zenith 20 50 120 horizon 150 160 180 ground 60 50 30 up 0.1 1 0.2\n"
+                 "object pane\nquad red 0.5 0.5 0.5 2 0.5 0.5 2 2.5 0.5 0.5 2.5 0.5\n"
+                 "quad mirror 3.9 0.3 3.8  3.9 2.7 3.8  3.9 2.7 0.2  3.9 0.3 0.2\n"
+                 "light w area quad 1 1 0.2  1 2 0.2  3 2 0.2  3 1 0.2 luminance 500 open\n", small(120, 90, 4));
+}
+
+}  // namespace
+}  // namespace shodo

@@ -1,0 +1,57 @@
+// A slow, obvious ray caster for mirrors, glass, highlights and the background: recursion, doubles, every triangle at
+// every ray, lights by hundreds of points. Shares no code with the picture; the drawn triangles and the directions of
+// the samples are its input.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "map/illuminance_map.h"
+#include "picture/view.h"
+#include "scene/scene.h"
+#include "visibility/geometry.h"
+
+namespace shodo {
+
+class OpticsTwin {
+ public:
+  using Point = std::array<double, 3>;
+  using Colour = std::array<double, 3>;  // cd/m2
+
+  OpticsTwin(const Scene& scene, const Geometry& geometry, const IlluminanceMaps& maps, const SampleGrid& grid);
+
+  /// Luminance at a place of the sample grid, whole numbers for samples.
+  Colour luminance(double x, double y) const;
+  /// Of a pixel: the mean of its samples, none above white, as 8-bit sRGB; the samples moved by so many of them.
+  std::array<int, 3> level(std::uint32_t px, std::uint32_t py, double dx = 0, double dy = 0) const;
+
+  int light_points = 2000;  // of an area light
+
+ private:
+  struct Triangle {
+    Point a, ab, ac, normal;
+    std::uint32_t index;
+  };
+  struct Hit {
+    double t, b, c;
+    const Triangle* triangle;
+    bool front;
+  };
+
+  std::vector<Hit> hits(const Point& from, const Point& way, double end) const;
+  Colour trace(const Point& from, const Point& way, int depth) const;
+  Colour surface(const Hit& hit) const;
+  Colour background(const Point& way) const;
+  Colour highlight(const Optics& optics, const Point& at, const Point& normal, const Point& view) const;
+  Colour passes(const Point& from, const Point& way, double end) const;
+  const Optics* optics_of(const Triangle& triangle) const;
+
+  const Scene& scene_;
+  const Geometry& geometry_;
+  const IlluminanceMaps& maps_;
+  const SampleGrid& grid_;
+  std::vector<Triangle> triangles_;
+};
+
+}  // namespace shodo
