@@ -1,9 +1,8 @@
 #include "memory_plan.h"
 
-#include <iterator>
-
 #include "ambient/ambient_memory.h"
 #include "ambient/coloured_panes.h"
+#include "ambient/mirror_share.h"
 #include "ambient/surfaces.h"
 #include "base/check.h"
 #include "light/mirror_light.h"
@@ -28,6 +27,11 @@ std::uint64_t drawn_bytes(const Model& model) {
 
 std::uint64_t mirror_bytes(const Model& model) {
   return model.options.mirror_light ? MirrorLight::bytes(model.scene, model.geometry) : 0;
+}
+
+/// What panes and mirrors want in the ambient stage.
+std::uint64_t ambient_optics_bytes(const Model& model) {
+  return coloured_panes_bytes(model.scene, model.geometry) + mirror_share_bytes(model.scene, model.options);
 }
 
 /// What load() leaves, and what it takes meanwhile.
@@ -60,8 +64,8 @@ void plan_light(const Model& model, MemoryPlan& plan) {
   plan.add(PlanPart::kSurfaces, surfaces, kAmbient);
   plan.add(PlanPart::kLinks, links, kAmbient);
   plan.add(PlanPart::kSolution, ambient - result - surfaces - links, kAmbient);
-  if (const std::uint64_t coloured = coloured_panes_bytes(scene, model.geometry); coloured > 0) {
-    plan.add(PlanPart::kColouredPanes, coloured, kAmbient);
+  if (const std::uint64_t optics = ambient_optics_bytes(model); optics > 0) {
+    plan.add(PlanPart::kAmbientOptics, optics, kAmbient);
   }
   plan.add(PlanPart::kSubPatches, direct_sub_patch_bytes(scene),
            kAgain | kMap | kPicture);
@@ -106,7 +110,7 @@ PartText plan_part_text(PlanPart part) {
       {"flags", "2 (objects + lights)"},
       {"direct light of the patches", "(8 c + 8) n"},
       {"possible blockers", "32 facets + 24 boxes + 8 facets"},
-      {"light sources", "4,096 + 112 lights + 168 faces that emit + 44 ends of segments"},
+      {"light sources", "4,096 + 400 lights + 168 faces that emit + 44 ends of segments"},
       {"mirrors that send light on", "48 a triangle, with --mirror-light on"},
       {"ambient light of the patches", "8 c n"},
       {"surfaces", "12 a node + 32 blocks + 33 meshes (9 with blocks) + 3,716; their geometry is found again"},
@@ -116,7 +120,7 @@ PartText plan_part_text(PlanPart part) {
       {"solution",
        "16 c + 8 a node (+ 2 with rules 1 and 2, 16 with 2+) + one "
        "row + the coarse correction; rows: what is left"},
-      {"ambient light of one channel", "8 c n, where panes are coloured"},
+      {"ambient light by channel, over mirrors", "8 c n where panes are coloured, 24 c n with --mirror-light on"},
       {"direct light of the sub-patches", "(4 c + 1) s; spare: given up to the rows"},
       {"light of measuring planes", "(8 c + 1) sub-patches of planes"},
       {"while measuring", "(44 + 8 c) sub-patches of a plane's patch"},
@@ -124,7 +128,7 @@ PartText plan_part_text(PlanPart part) {
       {"spreading over a mesh", "9 a patch + 8 a row of sub-patches, of the largest mesh"},
       {"drawing, or placing again", "2 c s + 8193 + (4 c + 3) width + 4 rows + 10 drawn + 208 active triangles"},
   };
-  static_assert(std::size(kTexts) == static_cast<std::size_t>(PlanPart::kDrawing) + 1);
+  static_assert(sizeof kTexts / sizeof(PartText) == static_cast<std::size_t>(PlanPart::kDrawing) + 1);
   return kTexts[static_cast<std::size_t>(part)];
 }
 
@@ -165,8 +169,8 @@ bool keeps_geometry(const Model& model) {
   const std::uint64_t ambient = smallest_ambient_bytes(scene, model.geometry, options, SurfacesKeep::kGeometry);
   const std::uint64_t rows = expected_row_bytes(scene, options);
   // Geometry costs less to find again than the direct light that would have to make room for it.
-  const std::uint64_t coloured = coloured_panes_bytes(scene, model.geometry);
-  std::uint64_t most = patches + blockers + ambient + coloured + rows + (rows > 0 ? direct_sub_patch_bytes(scene) : 0);
+  const std::uint64_t optics = ambient_optics_bytes(model);
+  std::uint64_t most = patches + blockers + ambient + optics + rows + (rows > 0 ? direct_sub_patch_bytes(scene) : 0);
   most = larger(most, solved + blockers + Sources::bytes(scene) + gather_bytes(scene) + mirror_bytes(model));
   most = larger(most, solved + map_bytes(scene, options));
   return most <= model.arena.capacity();

@@ -7,7 +7,7 @@
 
 #include <new>
 
-#include "ambient/coloured_panes.h"
+#include "ambient/mirror_share.h"
 #include "base/self_check.h"
 #include "base/text.h"
 #include "memory_plan.h"
@@ -267,9 +267,9 @@ Status solve_directly(Model& model, const Progress& progress) {
 }
 
 Status solve_ambiently(Model& model, const Progress& progress) {
-  const Status status = light_ambiently_through_panes(model.scene, model.geometry, model.patches, model.direct,
-                                                      model.intersector, model.options, progress, model.arena,
-                                                      model.ambient, model.statistics);
+  const Status status = light_ambiently_with_optics(model.scene, model.geometry, model.patches, model.direct,
+                                                    model.intersector, model.options, progress, model.arena,
+                                                    model.ambient, model.statistics);
   end_stage(model, MemoryStage::kAmbient);
   return with_model(status, model.overhead);
 }

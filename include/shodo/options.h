@@ -33,7 +33,7 @@ struct Options {
   bool scale_rows = true;
   bool interpolate = true;
   std::uint32_t row_value_bits = 16;   // 16 or 64
-  bool mirror_light = false;           // mirrors send the light of sources on, once
+  bool mirror_light = false;           // mirrors send light on, once
   std::uint32_t width = 1280;          // pixels, 1 .. 16384
   std::uint32_t height = 1024;
   std::uint32_t antialias = 4;         // samples a pixel: 1, 4 or 16

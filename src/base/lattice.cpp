@@ -15,7 +15,7 @@ std::int64_t round_away(double x) {
 std::int32_t even(double steps) { return static_cast<std::int32_t>(2 * round_away(0.5 * steps)); }
 
 std::int32_t odd(double steps) {
-  const std::int32_t below = static_cast<std::int32_t>(2 * static_cast<std::int64_t>(0.5 * magnitude(steps)) + 1);
+  const std::int32_t below = 2 * static_cast<std::int32_t>(0.5 * magnitude(steps)) + 1;
   return steps < 0 ? -below : below;
 }
 

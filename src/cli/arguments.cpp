@@ -235,7 +235,7 @@ constexpr OptionRule kOptions[] = {
      "segments a pair, first and where visibility is mixed (16,64)", take_segments},
     {"--scale-rows", "on|off", kForAll, "on or off", "rows of form factors made to sum to 1 where they should (on)",
      [](std::string_view t, Arguments& a) { return on_or_off(t, a.options.scale_rows); }},
-    {"--mirror-light", "on|off", kForAll, "on or off", "mirrors send the light of sources on, once (off)",
+    {"--mirror-light", "on|off", kForAll, "on or off", "mirrors send light on, once (off)",
      [](std::string_view t, Arguments& a) { return on_or_off(t, a.options.mirror_light); }},
     {"--interpolate", "on|off", kForAll, "on or off", "ambient light interpolated between patches (on)",
      [](std::string_view t, Arguments& a) { return on_or_off(t, a.options.interpolate); }},

@@ -57,14 +57,16 @@ std::vector<ReportJob> jobs_of(const Arguments& arguments, const std::string& sc
   return jobs;
 }
 
-/// Whether the scene loads, fits into the budget and has the camera; the exit status.
-int check_scene(const Arguments& arguments, const std::string& scene) {
+/// Whether the scene loads, fits into the budget and has the camera; the exit status. `mirrors` becomes true if it has
+/// any.
+int check_scene(const Arguments& arguments, const std::string& scene, bool& mirrors) {
   Arguments one = arguments;
   one.scene = scene;
   Run run(one);
   if (const int status = run.load_in_budget(); status != 0) return status;
   if (const int status = run.find_camera(); status != 0) return status;
   run.warn_of_changes();
+  for (const Optics& optics : run.model().scene.optics) mirrors = mirrors || optics.mirrors();
   return 0;
 }
 
@@ -108,12 +110,13 @@ int report(const Arguments& arguments) {
   FileError error;
   OutputFolder folder(arguments.output);
   if (!folder.probe(error)) return run.tell(error);
-  const std::vector<ReportCase> cases = report_cases(arguments.options);
-  std::vector<std::vector<ReportJob>> jobs;
+  bool mirrors = false;
   for (const std::string& scene : arguments.scenes) {
-    if (const int status = check_scene(arguments, scene); status != 0) return status;
-    jobs.push_back(jobs_of(arguments, scene, cases));
+    if (const int status = check_scene(arguments, scene, mirrors); status != 0) return status;
   }
+  const std::vector<ReportCase> cases = report_cases(arguments.options, mirrors);
+  std::vector<std::vector<ReportJob>> jobs;
+  for (const std::string& scene : arguments.scenes) jobs.push_back(jobs_of(arguments, scene, cases));
   if (const Status status = run_all(jobs, run.watch().shown()); !status.done()) return run.tell(status);
   const std::string json = file_beside(arguments.output, "workstation.json");
   std::vector<SceneResults> results;

@@ -74,6 +74,8 @@ constexpr Line kLines[] = {
      [](Options& o) { o.row_value_bits = 64; }},
     {CaseGroup::kOther, FlagMode::kAuto, kNoRules, 1, 0, 0, "tiers near",
      [](Options& o) { o.tiers = 0; }},
+    {CaseGroup::kOther, FlagMode::kAuto, kNoRules, 1, 0, 0, "mirror-light on",
+     [](Options& o) { o.mirror_light = true; }},
 };
 
 Options options_of(const Line& line, const Options& base) {
@@ -103,10 +105,11 @@ std::string_view group_name(CaseGroup group) {
   return "";
 }
 
-std::vector<ReportCase> report_cases(const Options& base) {
+std::vector<ReportCase> report_cases(const Options& base, bool mirrors) {
   std::vector<ReportCase> cases;
   for (const Line& line : kLines) {
     const Options options = options_of(line, base);
+    if (options.mirror_light != base.mirror_light && !mirrors) continue;
     const auto there = [&](const ReportCase& c) { return same_settings(c.options, options); };
     if (std::any_of(cases.begin(), cases.end(), there)) continue;
     const std::uint32_t number = static_cast<std::uint32_t>(cases.size()) + 1;
@@ -128,6 +131,7 @@ Options reference_options(const Options& base) {
   options.row_value_bits = 64;
   options.scale_rows = true;
   options.interpolate = true;
+  options.mirror_light = true;
   return options;
 }
 
@@ -176,7 +180,7 @@ bool same_settings(const Options& a, const Options& b) {
   return a.flags == b.flags && same_rules(a.rules, b.rules) && a.refine == b.refine &&
          a.segments_first == b.segments_first && a.segments_mixed == b.segments_mixed &&
          a.interpolate == b.interpolate && a.scale_rows == b.scale_rows && a.row_value_bits == b.row_value_bits &&
-         a.tiers == b.tiers;
+         a.tiers == b.tiers && a.mirror_light == b.mirror_light;
 }
 
 const ReportCase* find_case(const std::vector<ReportCase>& cases, FlagMode flags, const Rules& rules) {

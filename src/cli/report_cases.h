@@ -24,10 +24,11 @@ struct ReportCase {
 };
 
 /// Every case on top of the settings that the user gave; none twice. The first is flags auto without rules: the base.
-std::vector<ReportCase> report_cases(const Options& base);
+/// `mirrors`: the scenes have some, so that the light which these send on is a case of its own.
+std::vector<ReportCase> report_cases(const Options& base, bool mirrors = false);
 
 /// What all are measured against: twice the patch counts along each edge, form factors to 1e-4 (or as the base, if that
-/// is finer), 64 segments a pair, 256 where visibility is mixed (or as the base), 64-bit rows, flags auto, no rules.
+/// is finer), 64 segments a pair, 256 where visibility is mixed (or as the base), 64-bit rows, flags auto, no rules, light over mirrors.
 Options reference_options(const Options& base);
 
 std::string_view flags_text(FlagMode flags);

@@ -124,8 +124,10 @@ std::string statistics_json(const Model& model, const std::string& scene, const 
       .add("moved", s.vertices_moved)
       .close();
   json.open("dropped").add("patches", s.patches_dropped).add("polygons", s.polygons_dropped).close();
-  json.open("planes").add("planes", s.planes).add("sub_patches", s.plane_sub_patches);
-  json.add("segments", s.segments_planes).add("tests", s.tests_planes).close();
+  if (s.planes > 0) {
+    json.open("planes").add("planes", s.planes).add("sub_patches", s.plane_sub_patches);
+    json.add("segments", s.segments_planes).add("tests", s.tests_planes).close();
+  }
   json.open("segments").add("direct", s.segments_direct).add("ambient", s.segments_ambient).close();
   json.open("tests").add("direct", s.tests_direct).add("ambient", s.tests_ambient).close();
   json.open("form_factors")

@@ -7,6 +7,7 @@
 #include "light/direct.h"
 
 #include "light/mirror_light.h"
+#include "light/piece_grid.h"
 #include "light/receiver.h"
 #include "light/sources.h"
 #include "light/sub_patch_light.h"
@@ -17,6 +18,8 @@ namespace {
 
 constexpr std::uint32_t kProgressInterval = 64;
 constexpr double kThinSteps = 32;
+/// Of so many the factors of lights are interpolated over the patch (light/factor_field.h).
+constexpr std::uint32_t kManySubPatches = 3;
 /// Lattice steps by which samples may come to lie outside the patch's corners, mostly.
 constexpr std::int32_t kRounding = 8;
 /// Corners of a cell this near to one plane, of its size, are on it but for rounding.
@@ -41,7 +44,9 @@ class SubPatchesOfPatch {
   std::uint32_t next() {
     if (mesh_->kind != MeshKind::kTriangle) {
       if (k_ == mesh_->su * mesh_->sv) return kNone;
-      const std::uint32_t u = patch_.u * mesh_->su + k_ % mesh_->su, v = patch_.v * mesh_->sv + k_ / mesh_->su;
+      column_ = k_ % mesh_->su;
+      row_ = k_ / mesh_->su;
+      const std::uint32_t u = patch_.u * mesh_->su + column_, v = patch_.v * mesh_->sv + row_;
       ++k_;
       return v * mesh_->map_width() + u;
     }
@@ -55,11 +60,16 @@ class SubPatchesOfPatch {
     }
     return kNone;
   }
+  /// Of the last one on a quadrilateral.
+  PatchPlace place() const {
+    const double s = 1.0 / mesh_->su, t = 1.0 / mesh_->sv;
+    return {(column_ + 0.5) * s - 0.5, (row_ + 0.5) * t - 0.5, 0.5 * s, 0.5 * t};
+  }
 
  private:
   const Mesh* mesh_;
   PieceIndex patch_;
-  std::uint32_t k_ = 0;
+  std::uint32_t k_ = 0, column_ = 0, row_ = 0;
 };
 
 /// Whether a piece is under 32 lattice steps wide, so that rounding moves its samples noticeably.
@@ -113,7 +123,8 @@ class DirectStage {
 
  private:
   void start_patch(std::uint32_t mesh, std::uint32_t cell, std::uint32_t local);
-  void light_one(std::uint32_t mesh, std::uint32_t cell, std::uint32_t local, PatchSums& sums);
+  void light_one(std::uint32_t mesh, std::uint32_t cell, std::uint32_t local, const PatchPlace& place,
+                 PatchSums& sums);
   void store(std::uint32_t patch, const PatchSums& sums);
 
   const Scene& scene_;
@@ -134,7 +145,7 @@ bool DirectStage::light_patch(std::uint32_t m, std::uint32_t local, const Progre
   start_patch(m, cell, local);
   for (std::uint32_t k = sub_patches.next(); k != kNone; k = sub_patches.next()) {
     if (done_ % kProgressInterval == 0 && !progress.go_on(Stage::kDirect, done_, scene_.sub_patch_count)) return false;
-    light_one(m, cell, k, sums);
+    light_one(m, cell, k, sub_patches.place(), sums);
     ++done_;
   }
   store(mesh.first_patch + local, sums);
@@ -146,6 +157,7 @@ void DirectStage::start_patch(std::uint32_t m, std::uint32_t cell, std::uint32_t
   front_ = flat_front(geometry_, m, cell);
   const Mesh& mesh = scene_.meshes[m];
   LatticeBox box;
+  sources_.start_patch(box);
   if (mesh.su * mesh.sv > 1) {
     const Piece piece = patch_piece(scene_, mesh, local);
     for (std::uint32_t k = 0; k < piece.corners; ++k) {
@@ -156,11 +168,15 @@ void DirectStage::start_patch(std::uint32_t m, std::uint32_t cell, std::uint32_t
       box.low[k] -= kRounding;
       box.high[k] += kRounding;
     }
+    sources_.start_patch(box);
+    if (mesh.su * mesh.sv >= kManySubPatches && PieceGrid(cell_piece(scene_, mesh, cell), 1).affine()) {
+      sources_.share_factors(receiver_of(scene_, m, cell, piece), piece);
+    }
   }
-  sources_.start_patch(box);
 }
 
-void DirectStage::light_one(std::uint32_t m, std::uint32_t cell, std::uint32_t local, PatchSums& sums) {
+void DirectStage::light_one(std::uint32_t m, std::uint32_t cell, std::uint32_t local, const PatchPlace& place,
+                            PatchSums& sums) {
   const Mesh& mesh = scene_.meshes[m];
   const Piece piece = sub_patch_piece(scene_, mesh, local);
   const double area = length(piece.vector_area());
@@ -168,6 +184,7 @@ void DirectStage::light_one(std::uint32_t m, std::uint32_t cell, std::uint32_t l
   if (!(area > 0)) return;
   Receiver receiver = receiver_of(scene_, m, cell, piece);
   receiver.front = front_;
+  receiver.place = place;
   SubPatchLight light = light_sub_patch(sources_, receiver, piece, is_thin(geometry_, piece));
   for (std::uint32_t c = 1; c < scene_.channels && coloured_; ++c) {
     sources_.intersector().set_channel(c);

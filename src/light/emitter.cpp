@@ -7,9 +7,6 @@ namespace shodo {
 
 namespace {
 
-/// A light this many times as long as wide has two rows of ends; one row from the second on.
-constexpr double kLong = 3;
-constexpr double kVeryLong = 8;
 /// Lattice steps, so many at both: ends stand less than that off their points, and so do the corners' own.
 constexpr std::int32_t kEndRounding = 2 * kMostMoved;
 
@@ -28,43 +25,18 @@ Emitter emitter_of(const Piece& piece, std::uint32_t light) {
   return emitter;
 }
 
-/// A quarter's ends by distance from the border: of the few in eighths of the side, of the many in 32nds, odd: every
-/// column and every row of a quarter has one, and so has each of its own quarters two.
+/// A quarter's ends by distance from the border, in 32nds of the side, odd: every column and every row of a quarter has
+/// one, and so has each of its own quarters two.
 PieceGrid::Parameter even_end(std::uint32_t quarter, std::uint32_t k) {
-  constexpr double kFew[kFewInQuarter][2] = {{1, 3}, {3, 1}};
-  constexpr double kMany[kManyInQuarter][2] = {{7, 13}, {13, 7}, {1, 5}, {5, 1}, {3, 9}, {9, 3}, {11, 15}, {15, 11}};
-  const bool few = k < kFewInQuarter;
-  const double s = few ? kFew[k][0] / 8 : kMany[k - kFewInQuarter][0] / 32;
-  const double t = few ? kFew[k][1] / 8 : kMany[k - kFewInQuarter][1] / 32;
+  constexpr double kPlace[kManyInQuarter][2] = {{5, 11}, {11, 5}, {3, 13}, {13, 3}, {1, 7}, {7, 1}, {9, 15}, {15, 9}};
+  const double s = kPlace[k][0] / 32, t = kPlace[k][1] / 32;
   return {(quarter & 1) == 0 ? s : 1 - s, (quarter >> 1) == 0 ? t : 1 - t};
 }
 
-/// Of a long one, along the longer side: quarters follow each other, with two rows or, very long, with one. The second
-/// half of the light mirrors the first.
-PieceGrid::Parameter long_end(std::uint32_t quarter, std::uint32_t k, bool very) {
-  constexpr std::uint32_t kOne[kManyInQuarter] = {2, 5, 0, 1, 3, 4, 6, 7};  // the first two are spread, too
-  constexpr std::uint32_t kTwo[kManyInQuarter / 2] = {1, 0, 2, 3};
-  const bool few = k < kFewInQuarter, mirrored = quarter >= 2;
-  const std::uint32_t from_end = mirrored ? 3 - quarter : quarter, count = few ? kFewInQuarter : kManyInQuarter;
-  const std::uint32_t columns = very ? count : count / 2;
-  const std::uint32_t n = few ? k : very ? kOne[k - kFewInQuarter] : kTwo[(k - kFewInQuarter) / 2];
-  const std::uint32_t column = very || !few ? n : 0;
-  const double across = very ? 0.5 : k % 2 == 0 ? 0.25 : 0.75;
-  const double along = (from_end * columns + column + 0.5) / (4.0 * columns);
-  return {mirrored ? 1 - along : along, across};
-}
-
-/// End k of an area light: the few of each quarter, then the many of each.
-PieceGrid::Parameter area_end(const Piece& piece, std::uint32_t end) {
-  const bool few = end < kFewEnds;
-  const std::uint32_t in_set = few ? end : end - kFewEnds, in_quarter = few ? kFewInQuarter : kManyInQuarter;
-  const std::uint32_t quarter = in_set / in_quarter, k = in_set % in_quarter + (few ? 0 : kFewInQuarter);
-  const Vec3* c = piece.corner;
-  const double side_s = length(c[1] - c[0]) + length(c[2] - c[3]), side_t = length(c[3] - c[0]) + length(c[2] - c[1]);
-  const double longer = side_s > side_t ? side_s : side_t, shorter = side_s > side_t ? side_t : side_s;
-  if (longer < kLong * shorter || piece.cut) return even_end(quarter, k);
-  const PieceGrid::Parameter at = long_end(quarter, k, longer >= kVeryLong * shorter);
-  return side_s > side_t ? at : PieceGrid::Parameter{at.t, at.s};
+/// End k of an area light: two of each quarter at a time.
+PieceGrid::Parameter area_end(std::uint32_t end) {
+  const std::uint32_t pair = end / kFewEnds, in_pairs = end % kFewEnds;
+  return even_end(in_pairs / kFewInQuarter, pair * kFewInQuarter + in_pairs % kFewInQuarter);
 }
 
 }  // namespace
@@ -111,8 +83,24 @@ namespace {
 /// Of larger polyhedra finding the heights takes longer than they save.
 constexpr std::uint32_t kMostTriangles = 512;
 
-void find_own_height(const Geometry& geometry, std::span<const LatticePoint> ends, std::uint32_t object,
-                     Emitter& emitter) {
+/// An end is lifted by so many steps at most.
+constexpr std::int32_t kLift = 16;
+
+/// Above `height` over the plane, by steps of 2 along the largest component of its normal; false if it takes too many.
+bool lift(const Triangle& plane, std::int64_t height, LatticePoint& end) {
+  const auto magnitude = [](std::int64_t x) { return x < 0 ? -x : x; };
+  const std::int64_t x = magnitude(plane.n.x), y = magnitude(plane.n.y), z = magnitude(plane.n.z);
+  std::int32_t& at = x >= y && x >= z ? end.x : y >= z ? end.y : end.z;
+  const std::int64_t n = x >= y && x >= z ? plane.n.x : y >= z ? plane.n.y : plane.n.z;
+  for (std::int32_t lifted = 0; plane.side(end) <= height; lifted += 2) {
+    if (lifted == kLift) return false;
+    at += n > 0 ? 2 : -2;
+  }
+  return true;
+}
+
+/// Corners of neighbours may lie a step or two above a face, by rounding: ends are lifted above them.
+void find_own_height(const Geometry& geometry, std::span<LatticePoint> ends, std::uint32_t object, Emitter& emitter) {
   const std::uint32_t triangle = geometry.cells[geometry.first_cell[emitter.mesh] + emitter.cell].first;
   const Triangle& plane = geometry.triangles[triangle];
   if (plane.object != object || plane.n == LatticeVector{}) return;
@@ -126,7 +114,13 @@ void find_own_height(const Geometry& geometry, std::span<const LatticePoint> end
     }
   }
   for (const LatticePoint& end : ends) {
-    if (plane.side(end) <= emitter.own_height) return;
+    LatticePoint lifted = end;
+    if (!lift(plane, emitter.own_height, lifted)) return;
+  }
+  emitter.box = {};
+  for (LatticePoint& end : ends) {
+    lift(plane, emitter.own_height, end);
+    emitter.box.include(end);
   }
   emitter.own_triangle = triangle;
 }
@@ -148,13 +142,13 @@ void include_corners(const Scene& scene, const Geometry& geometry, const Piece& 
 
 }  // namespace
 
-bool own_facets_miss(const Geometry& geometry, const Emitter& emitter, std::span<const LatticePoint> samples) {
+bool own_facets_miss(const Geometry& geometry, const Emitter& emitter, const LatticeBox& samples) {
   if (emitter.own_triangle == kNone) return false;
   const Triangle& plane = geometry.triangles[emitter.own_triangle];
-  for (const LatticePoint& sample : samples) {
-    if (plane.side(sample) <= emitter.own_height) return false;
-  }
-  return true;
+  const LatticePoint lowest{plane.n.x > 0 ? samples.low[0] : samples.high[0],
+                            plane.n.y > 0 ? samples.low[1] : samples.high[1],
+                            plane.n.z > 0 ? samples.low[2] : samples.high[2]};
+  return plane.side(lowest) > emitter.own_height;
 }
 
 void place_ends(const Scene& scene, const Geometry& geometry, Emitters& emitters, std::uint32_t e,
@@ -166,10 +160,7 @@ void place_ends(const Scene& scene, const Geometry& geometry, Emitters& emitters
   const Piece piece = emitter_piece(scene, emitter);
   const PieceGrid grid(piece, 1);
   for (std::uint32_t k = 0; k < emitter.end_count; ++k) {
-    const PieceGrid::Parameter at = emitter.is_area() ? area_end(piece, k)
-                                    : k > 0           ? grid.gauss(k - 1)
-                                    : piece.corners == 3 ? PieceGrid::Parameter{1.0 / 3, 1.0 / 3}
-                                                         : PieceGrid::Parameter{0.5, 0.5};
+    const PieceGrid::Parameter at = emitter.is_area() ? area_end(k) : grid.gauss(k);
     EmitterEnd& end = emitters.ends[first_end + k];
     end = {grid.point_at(at), grid.weight_at(at)};
     emitters.lattice_ends[first_end + k] = segment_end(scene, geometry, emitter, end.point);

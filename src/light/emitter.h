@@ -1,14 +1,13 @@
 // Faces that emit: area lights and the faces of polyhedral ones, with the points on them at which segments end (paper
 // 2.1).
 //
-// The points are fixed, so they are placed once and not for each sub-patch. A face of a polyhedron has its centre, and
-// the four Gauss points for receivers to which it looks large. An area light has two sets, 8 ends for each of several
-// samples and 32 for the centre of a sub-patch alone, two and eight in each quarter, so that quarters can be aimed at
-// one by one. No two of them but mirror images share a column or a row: a shadow edge along a side is met by the 8 as
-// finely as by 4 x 4 points, by the 32 as by 16 x 16. On a long light they stand in two rows or in one. Each set is
-// mapped on itself by every mirror image of the face, and so are the first two of the 32 in every quarter: a mirrored
-// scene has mirrored light.
-// Bytes: 168 a face that emits, and 44 a point: 40 an area light, 5 a face of a polyhedron.
+// The points are fixed, so they are placed once and not for each sub-patch. A face of a polyhedron has its four
+// Gauss points, lifted above all of the polyhedron if a step or two will do, so that no facet of its own is in the
+// way. An area light has 32 ends, eight in each quarter, for the centre of a sub-patch; its other samples look at
+// two of each quarter, the first or the second two. No two of them but mirror images share a column or a row: a
+// shadow edge along a side is met by the 32 as finely as by 16 x 16 points, along a long light's narrow side too.
+// Each set is mapped on itself by every mirror image of the face: a mirrored scene has mirrored light. Bytes: 168 a
+// face that emits, and 44 a point: 32 an area light, 4 a face of a polyhedron.
 #pragma once
 
 #include <cstdint>
@@ -25,12 +24,12 @@ inline constexpr std::uint32_t kQuarters = 4;
 inline constexpr std::uint32_t kFewInQuarter = 2;
 inline constexpr std::uint32_t kManyInQuarter = 8;
 inline constexpr std::uint32_t kFewEnds = kQuarters * kFewInQuarter;
-inline constexpr std::uint32_t kManyEnds = kQuarters * kManyInQuarter;
-inline constexpr std::uint32_t kAreaEnds = kFewEnds + kManyEnds;
-inline constexpr std::uint32_t kFaceEnds = 5;  // the centre, then the Gauss points
+inline constexpr std::uint32_t kAreaEnds = kQuarters * kManyInQuarter;
+inline constexpr std::uint32_t kFaceEnds = 4;  // the Gauss points
 
-/// Ends of an area light: the 8, the 32, or those 8 of the 32 that come first in their quarters.
-enum class EndSet : std::uint8_t { kFew, kMany, kFirstOfMany };
+/// Ends of an area light, a bit each: all 32, the first 8, or the second 8.
+using EndSet = std::uint32_t;
+inline constexpr EndSet kAllEnds = 0xFFFFFFFF, kFirstEnds = 0xFF, kSecondEnds = 0xFF00;
 
 struct Emitter {
   Vec3 normal;       // unit
@@ -79,8 +78,8 @@ Piece emitter_piece(const Scene& scene, const Emitter& emitter);
 /// Where the segment to a point of the face ends: odd, in front of the face.
 LatticePoint segment_end(const Scene& scene, const Geometry& geometry, const Emitter& emitter, const Vec3& point);
 
-/// Whether no segment from these samples to the face's ends is blocked by a facet of the face's own polyhedron.
-bool own_facets_miss(const Geometry& geometry, const Emitter& emitter, std::span<const LatticePoint> samples);
+/// Whether no segment from samples in this box to the face's ends is blocked by a facet of the face's own polyhedron.
+bool own_facets_miss(const Geometry& geometry, const Emitter& emitter, const LatticeBox& samples);
 
 /// Fills the ends of emitters.faces[e] from `first_end` on, and its box.
 void place_ends(const Scene& scene, const Geometry& geometry, Emitters& emitters, std::uint32_t e,

@@ -1,24 +1,18 @@
 #include "light/face_light.h"
 
+#include <bit>
+
+#include "light/face_leaves.h"
 #include "light/polygon_factor.h"
-#include "light/quad_cell.h"
 
 namespace shodo {
 
 namespace {
 
-/// Faces of a polyhedron of so many have one segment a sample, or four if they fill more than this of its hemisphere.
-constexpr std::uint32_t kManyFaces = 12;
-constexpr double kLargeFactor = 0.01;
+/// So many faces of a polyhedron are looked at together.
+constexpr std::uint32_t kFacesAtOnce = 16;
 /// Of a sub-patch: nearer than that to a face its light is not of the third degree over it, within 1/500.
 constexpr double kNearRadii = 4;
-/// A face at a distance of less than its radius is split, until the leaves' radius is this part of theirs, or of the
-/// sub-patch's.
-constexpr double kLeafAngle = 0.25;
-constexpr double kLeafOfRadius = 0.25;
-constexpr std::uint32_t kDeepestLeaf = 6;
-/// It is not worth while to narrow an aim for so few tests.
-constexpr std::size_t kFewTests = 16;
 /// The middle tier's error over q^2.
 constexpr double kMiddleError = 0.45;
 /// That of the scaled tier over (r_p r_e / d^2)^2.
@@ -44,26 +38,17 @@ FaceReach reach_of(const SubPatchView& view, const Emitter& emitter) {
 
 /// One face at work.
 struct FaceLight::Face {
-  const Emitter* emitter;
-  std::uint32_t faces;  // of its light
+  const Emitter* emitter = nullptr;
   Tier tier = Tier::kNear;
-  bool crossing = true;  // one side may lie partly behind the other's plane
-  bool panes = false;    // a pane may be between
-  double factor[kMostInGroup] = {};
-  double largest = 0;
+  bool below = true;    // a part may lie below the receiver's horizon
+  bool panes = false;   // a pane may be between
+  double factor[kMostInGroup];  // filled as far as the group goes
+};
 
-  /// Ends that are aimed at together.
-  std::uint32_t tiles() const { return emitter->is_area() ? kQuarters : 1; }
-  /// Of an area light a quarter of the set; of a polyhedron's face its centre or Gauss points.
-  Tile tile(std::uint32_t t, EndSet set) const {
-    if (!emitter->is_area()) {
-      const bool one = faces >= kManyFaces && !(largest > kLargeFactor);
-      return one ? Tile{emitter->first_end, 1} : Tile{emitter->first_end + 1, kFaceEnds - 1};
-    }
-    if (set == EndSet::kFew) return {emitter->first_end + t * kFewInQuarter, kFewInQuarter};
-    const std::uint32_t first = emitter->first_end + kFewEnds + t * kManyInQuarter;
-    return {first, set == EndSet::kMany ? kManyInQuarter : kFewInQuarter};
-  }
+/// Faces of a polyhedron that are looked at together.
+struct FaceLight::Batch {
+  Face face[kFacesAtOnce];
+  std::uint32_t count = 0;
 };
 
 FaceLight::Tier FaceLight::tier_of(const SubPatchView& view, Face& face) const {
@@ -71,8 +56,8 @@ FaceLight::Tier FaceLight::tier_of(const SubPatchView& view, Face& face) const {
   const double above = view.receiver->height(emitter.centre), front = emitter.height(view.centre);
   if (above <= -emitter.radius || front <= -view.radius) return Tier::kNothing;
   const double squared = length_squared(emitter.centre - view.centre);
-  face.crossing = above < emitter.radius || front < view.radius;
-  if (face.crossing) return Tier::kNear;
+  face.below = above < emitter.radius;
+  if (face.below || front < view.radius) return Tier::kNear;
   const double q = (4.0 / 3) * (emitter.radius * emitter.radius + view.radius * view.radius) / squared;
   if (q <= tiers_) return Tier::kFar;
   if (!emitter.is_area() && kMiddleError * q * q <= tiers_) return Tier::kMiddle;
@@ -83,12 +68,22 @@ FaceLight::Tier FaceLight::tier_of(const SubPatchView& view, Face& face) const {
 /// From the sub-patch's centre, over the face's Gauss points.
 double FaceLight::mean_kernel(const SubPatchView& view, const Emitter& emitter) const {
   double sum = 0, weight = 0;
-  for (std::uint32_t e = emitter.first_end + 1; e < emitter.first_end + kFaceEnds; ++e) {
+  for (std::uint32_t e = emitter.first_end; e < emitter.first_end + kFaceEnds; ++e) {
     const EmitterEnd& end = emitters_->ends[e];
     sum += end.weight * kernel(view.centre, view.receiver->normal, end.point, emitter.normal);
     weight += end.weight;
   }
   return sum / weight;
+}
+
+/// Over two Gauss points across from each other, which leaves out the term in s t only; odd and even nodes of a patch
+/// take different ones.
+double FaceLight::pair_kernel(const Vec3& point, const Vec3& normal, const Emitter& emitter, bool odd) const {
+  const EmitterEnd* ends = emitters_->ends.data() + emitter.first_end;
+  const EmitterEnd &a = ends[odd ? 1 : 0], &b = ends[odd ? 2 : 3];
+  const double from_a = a.weight * kernel(point, normal, a.point, emitter.normal);
+  const double from_b = b.weight * kernel(point, normal, b.point, emitter.normal);
+  return (from_a + from_b) / (a.weight + b.weight);
 }
 
 void FaceLight::find_factors(const SubPatchView& view, const ReceiverGroup& group, Face& face) const {
@@ -111,163 +106,217 @@ void FaceLight::find_factors(const SubPatchView& view, const ReceiverGroup& grou
     return;
   }
   for (std::uint32_t k = 0; k < group.count; ++k) {
-    if (!(emitter.height(group.point[k]) > 0)) continue;
-    face.factor[k] = point_to_polygon(group.point[k], normal, piece.corner, piece.corners);
+    const bool front = emitter.height(group.point[k]) > 0;
+    face.factor[k] = front ? point_to_polygon(group.point[k], normal, piece.corner, piece.corners) : 0;
   }
 }
 
-/// What the segments to one face found, by sample of the group: the visible part, or -1 if every end lies below the
-/// sample's horizon.
-struct FaceLight::Seen {
-  double part[kMostInGroup];
-};
-
-/// The leaves of a face's quadtree, in Z order: cells small against their distance.
-class FaceLight::Leaves {
- public:
-  Leaves(const Piece& piece, const PieceGrid& grid, const SubPatchView& view, double radius)
-      : piece_(&piece), grid_(&grid), view_(&view), radius_(radius) {
-    descend();
-  }
-  PieceGrid::Parameter centre() const { return centre_; }
-  /// Share of the face's area.
-  double weight() const { return grid_->weight_at(centre_) * cell_.size() * cell_.size(); }
-  /// False after the last.
-  bool next() {
-    if (!cell_.advance()) return false;
-    descend();
-    return true;
-  }
-
- private:
-  void descend() {
-    for (;;) {
-      const double size = cell_.size();
-      centre_ = {size * (cell_.x + 0.5), size * (cell_.y + 0.5)};
-      const double radius = radius_ * size;
-      const double squared = length_squared(piece_->point(centre_.s, centre_.t) - view_->centre);
-      const bool small = radius * radius <= kLeafAngle * kLeafAngle * squared || radius < kLeafOfRadius * view_->radius;
-      if (small || cell_.depth == kDeepestLeaf) return;
-      cell_.descend();
-    }
-  }
-
-  const Piece* piece_;
-  const PieceGrid* grid_;
-  const SubPatchView* view_;
-  double radius_;
-  QuadCell cell_;
-  PieceGrid::Parameter centre_{0.5, 0.5};
-};
-
+/// A face at a distance of less than its radius.
 bool FaceLight::is_split(const SubPatchView& view, const Emitter& emitter) {
   const double squared = length_squared(emitter.centre - view.centre);
   return emitter.is_area() && emitter.radius * emitter.radius > squared;
 }
 
+/// Segments from the leaves to all samples at once.
 void FaceLight::look_at_leaves(const SubPatchView& view, const ReceiverGroup& group, const Link& link,
-                               const Face& face, const Aim& aim, Seen& seen) const {
+                               const Face& face, const Aim& aim, FaceLook& look) const {
   const Emitter& emitter = *face.emitter;
   const Piece piece = emitter_piece(*scene_, emitter);
   const PieceGrid grid(piece, 1);
   double all[kMostInGroup] = {}, arrives[kMostInGroup] = {};
-  Leaves leaves(piece, grid, view, emitter.radius);
+  FaceLeaves leaves(piece, grid, emitter.radius, view.centre, view.radius);
   do {
-    const EmitterEnd end{grid.point_at(leaves.centre()), leaves.weight()};
-    const LatticePoint at = aim.clear() && !face.panes ? LatticePoint{} : segment_end(*scene_, *geometry_, emitter, end.point);
-    const Aim narrow = aim.facets.size() * group.count > kFewTests ? narrowed(group, {&at, 1}, aim) : aim;
+    const Vec3 end = grid.point_at(leaves.centre());
+    double weight[kMostInGroup];
+    std::uint32_t wanted = 0;
     for (std::uint32_t k = 0; k < group.count; ++k) {
       if (!(face.factor[k] > 0)) continue;
-      const double weight = end.weight * kernel(group.point[k], view.receiver->normal, end.point, emitter.normal);
-      if (!(weight > 0)) continue;
-      all[k] += weight;
-      const bool free = narrow.clear() || !intersector_->blocked(group.lattice[k], at, link, narrow);
-      if (free) arrives[k] += face.panes ? weight * intersector_->panes().pass(group.lattice[k], at) : weight;
+      weight[k] = leaves.weight() * kernel(group.point[k], view.receiver->normal, end, emitter.normal);
+      if (weight[k] > 0) wanted |= std::uint32_t{1} << k;
+    }
+    if (wanted == 0) continue;
+    std::uint32_t shadow = 0;
+    LatticePoint at;
+    if (!aim.clear() || face.panes) at = segment_end(*scene_, *geometry_, emitter, end);
+    if (!aim.clear()) shadow = intersector_->shadow({at, {group.lattice, group.count}, group.box}, wanted, link, aim);
+    for (std::uint32_t k = 0; k < group.count; ++k) {
+      if ((wanted >> k & 1) == 0) continue;
+      all[k] += weight[k];
+      if ((shadow >> k & 1) != 0) continue;
+      arrives[k] += face.panes ? weight[k] * intersector_->panes().pass(group.lattice[k], at) : weight[k];
     }
   } while (leaves.next());
-  for (std::uint32_t k = 0; k < group.count; ++k) seen.part[k] = all[k] > 0 ? arrives[k] / all[k] : -1;
-}
-
-Aim FaceLight::narrowed(const ReceiverGroup& group, std::span<const LatticePoint> ends, const Aim& aim) const {
-  LatticeBox box;
-  for (const LatticePoint& end : ends) box.include(end);
-  return intersector_->narrow(aim, group.ends(), {ends, box});
-}
-
-/// Kernels are found only where they decide: which ends are above the horizon, if one side crosses the other's plane,
-/// and how much they count, if some but not all are free.
-void FaceLight::look_at_ends(const SubPatchView& view, const ReceiverGroup& group, const Link& link, const Face& face,
-                             const Aim& aim, Seen& seen) const {
-  const Emitter& emitter = *face.emitter;
-  const auto weight_of = [&](std::uint32_t k, std::uint32_t e) {
-    const EmitterEnd& end = emitters_->ends[e];
-    if (face.tier == Tier::kFar) return end.weight;
-    return end.weight * kernel(group.point[k], view.receiver->normal, end.point, emitter.normal);
-  };
-  std::uint32_t tested[kMostInGroup] = {}, free[kMostInGroup] = {};  // a bit an end
-  std::uint32_t bit = 0;
-  for (std::uint32_t t = 0; t < face.tiles(); ++t) {
-    const Tile tile = face.tile(t, group.ends_of_area);
-    const std::span<const LatticePoint> ends = emitters_->lattice_ends.subspan(tile.first, tile.count);
-    const bool worth = aim.facets.size() * group.count * tile.count > kFewTests;
-    const Aim narrow = worth ? narrowed(group, ends, aim) : aim;
-    for (std::uint32_t k = 0; k < group.count; ++k) {
-      if (!(face.factor[k] > 0)) continue;
-      for (std::uint32_t e = 0; e < tile.count; ++e) {
-        if (face.crossing && !(weight_of(k, tile.first + e) > 0)) continue;
-        const std::uint32_t mask = std::uint32_t{1} << (bit + e);
-        tested[k] |= mask;
-        if (narrow.clear() || !intersector_->blocked(group.lattice[k], ends[e], link, narrow)) free[k] |= mask;
-      }
-    }
-    bit += tile.count;
-  }
   for (std::uint32_t k = 0; k < group.count; ++k) {
-    seen.part[k] = tested[k] == 0 ? -1 : free[k] == tested[k] ? 1 : 0;
-    if (free[k] == 0 || (free[k] == tested[k] && !face.panes)) continue;
-    double all = 0, arrives = 0;
-    bit = 0;
-    for (std::uint32_t t = 0; t < face.tiles(); ++t) {
-      const Tile tile = face.tile(t, group.ends_of_area);
-      for (std::uint32_t e = 0; e < tile.count; ++e, ++bit) {
-        if ((tested[k] >> bit & 1) == 0) continue;
-        const double weight = weight_of(k, tile.first + e);
-        all += weight;
-        if ((free[k] >> bit & 1) == 0) continue;
-        const LatticePoint& end = emitters_->lattice_ends[tile.first + e];
-        arrives += face.panes ? weight * intersector_->panes().pass(group.lattice[k], end) : weight;
-      }
-    }
-    seen.part[k] = arrives / all;
-  }
-}
-
-void FaceLight::look_at(const SubPatchView& view, const ReceiverGroup& group, const Link& link, Face& face,
-                        const Aim& aim, FaceLook& look) const {
-  for (std::uint32_t k = 0; k < group.count; ++k) {
-    if (face.factor[k] > face.largest) face.largest = face.factor[k];
-  }
-  if (!(face.largest > 0)) return;
-  Seen seen;
-  if (is_split(view, *face.emitter)) {
-    look.split = true;
-    look_at_leaves(view, group, link, face, aim, seen);
-  } else {
-    look_at_ends(view, group, link, face, aim, seen);
-  }
-  for (std::uint32_t k = 0; k < group.count; ++k) {
-    look.factor[k] += face.factor[k];
-    if (seen.part[k] < 0) continue;
+    if (!(all[k] > 0)) continue;
     look.tested[k] += face.factor[k];
-    look.arrives[k] += face.factor[k] * seen.part[k];
+    look.arrives[k] += face.factor[k] * (arrives[k] / all[k]);
   }
+}
+
+/// Those of some ends of a face, a bit each from `first` on, that are above the receiver's horizon.
+std::uint32_t FaceLight::ends_above(const SubPatchView& view, const Face& face, std::uint32_t first,
+                                    std::uint32_t ends) const {
+  if (!face.below) return ends;
+  std::uint32_t above = 0, bit = 1;
+  for (std::uint32_t e = first; ends != 0; ++e, bit <<= 1, ends >>= 1) {
+    if ((ends & 1) != 0 && view.receiver->height(emitters_->ends[e].point) > 0) above |= bit;
+  }
+  return above;
+}
+
+/// What the ends of an area light count: its own cosines are in proportion to 1 / r, since it is plane, and the heights
+/// over the receiver's plane are the same for all its samples.
+class FaceLight::EndWeights {
+ public:
+  EndWeights(const SubPatchView& view, const EmitterEnd* ends, std::uint32_t above) : ends_(ends), above_(above) {
+    for (std::uint32_t left = above; left != 0; left &= left - 1) {
+      const std::uint32_t e = static_cast<std::uint32_t>(std::countr_zero(left));
+      height_[e] = ends[e].weight * view.receiver->height(ends[e].point);
+    }
+  }
+  /// The part that arrives at a sample: kernels of the ends that are free over those of all.
+  template <class Pass>
+  double part(const Vec3& sample, std::uint32_t shadow, Pass pass) const {
+    double all = 0, arrives = 0;
+    for (std::uint32_t left = above_; left != 0; left &= left - 1) {
+      const std::uint32_t e = static_cast<std::uint32_t>(std::countr_zero(left));
+      const double squared = length_squared(ends_[e].point - sample);
+      const double weight = height_[e] / (squared * squared);
+      all += weight;
+      if ((shadow >> e & 1) == 0) arrives += pass(weight, e);
+    }
+    return arrives / all;
+  }
+
+ private:
+  const EmitterEnd* ends_;
+  std::uint32_t above_;
+  double height_[kAreaEnds];
+};
+
+void FaceLight::look_at_area(const SubPatchView& view, const ReceiverGroup& group, const Link& link, const Face& face,
+                             const Aim& aim, FaceLook& look) const {
+  const std::uint32_t first = face.emitter->first_end;
+  const std::uint32_t above = ends_above(view, face, first, group.ends_of_area);
+  if (above == 0) return;
+  const std::span<const LatticePoint> ends = emitters_->lattice_ends.subspan(first, kAreaEnds);
+  std::uint32_t shadow[kMostInGroup] = {};
+  bool mixed = face.panes;
+  for (std::uint32_t k = 0; k < group.count; ++k) {
+    if (!(face.factor[k] > 0) || aim.clear()) continue;
+    shadow[k] = intersector_->shadow({group.lattice[k], ends, face.emitter->box}, above, link, aim);
+    mixed = mixed || (shadow[k] != 0 && shadow[k] != above);
+  }
+  const EndWeights weights(view, emitters_->ends.data() + first, mixed ? above : 0);
+  for (std::uint32_t k = 0; k < group.count; ++k) {
+    if (!(face.factor[k] > 0)) continue;
+    look.tested[k] += face.factor[k];
+    if (shadow[k] == above) continue;
+    if (face.panes) {
+      look.arrives[k] += face.factor[k] * weights.part(group.point[k], shadow[k], [&](double weight, std::uint32_t e) {
+        return weight * intersector_->panes().pass(group.lattice[k], ends[e]);
+      });
+      continue;
+    }
+    const auto whole = [](double weight, std::uint32_t) { return weight; };
+    look.arrives[k] += shadow[k] == 0 ? face.factor[k] : face.factor[k] * weights.part(group.point[k], shadow[k], whole);
+  }
+}
+
+/// Of a polyhedron's faces each sample looks at one Gauss point: neighbours at different ones, so that mirror images of
+/// a sub-patch and of a face are those of each other.
+std::uint32_t end_of(const ReceiverGroup& group, std::uint32_t k) {
+  if (group.count == kGaussSamples) return k;
+  const std::uint32_t index = group.grid_index[k];
+  return (index & 1U) + 2 * (index / kGridCuts & 1U);
+}
+
+/// End `e` of every face in one look from each sample that looks at this one.
+void FaceLight::look_at_ends(const SubPatchView& view, const ReceiverGroup& group, const Link& link,
+                             const Batch& batch, const Aim& aim, std::size_t others, std::uint32_t e,
+                             FaceLook& look) const {
+  LatticePoint ends[kFacesAtOnce];
+  LatticeBox box;
+  std::uint32_t above = 0, own_miss = 0;  // bits of faces; all samples miss own facets
+  for (std::uint32_t f = 0; f < batch.count; ++f) {
+    const Face& face = batch.face[f];
+    const std::uint32_t end = face.emitter->first_end + e;
+    ends[f] = emitters_->lattice_ends[end];
+    box.include(ends[f]);
+    above |= ends_above(view, face, end, 1) << f;
+    if (others == aim.facets.size() || own_facets_miss(*geometry_, *face.emitter, group.box)) own_miss |= 1U << f;
+  }
+  for (std::uint32_t k = 0; k < group.count; ++k) {
+    if (end_of(group, k) != e && look.reach == FaceReach::kFar) continue;  // near: all samples look at all
+    std::uint32_t wanted = 0;
+    for (std::uint32_t f = 0; f < batch.count; ++f) {
+      if (batch.face[f].factor[k] > 0) wanted |= above & 1U << f;
+    }
+    if (wanted == 0) continue;
+    const Segments segments{group.lattice[k], {ends, batch.count}, box};
+    const std::uint32_t shadow =
+        aim.clear() ? 0 : intersector_->shadow(segments, wanted, link, aim, others, wanted & ~own_miss);
+    for (std::uint32_t f = 0; f < batch.count; ++f) {
+      if ((wanted >> f & 1) == 0) continue;
+      const double factor = batch.face[f].factor[k];
+      look.tested[k] += factor;
+      if ((shadow >> f & 1) != 0) continue;
+      look.arrives[k] += batch.face[f].panes ? factor * intersector_->panes().pass(group.lattice[k], ends[f]) : factor;
+    }
+  }
+}
+
+void FaceLight::look_at_faces(const SubPatchView& view, const ReceiverGroup& group, const Link& link, Batch& batch,
+                              const Aim& aim, std::size_t others, FaceLook& look) const {
+  for (std::uint32_t e = 0; e < kFaceEnds; ++e) look_at_ends(view, group, link, batch, aim, others, e, look);
+  batch.count = 0;
+}
+
+double FaceLight::factor_at(const Vec3& point, const Receiver& receiver, std::uint32_t first, std::uint32_t count,
+                            bool odd) const {
+  SubPatchView view;
+  view.receiver = &receiver;
+  view.centre = point;
+  double sum = 0;
+  for (std::uint32_t e = first; e < first + count; ++e) {
+    Face face;
+    face.emitter = &emitters_->faces[e];
+    if (!(face.emitter->height(point) > 0)) continue;
+    const Tier tier = tier_of(view, face);
+    if (tier == Tier::kNothing) continue;
+    if (tier == Tier::kFar || tier == Tier::kMiddle) {
+      const Emitter& emitter = *face.emitter;
+      const double mean = tier == Tier::kFar ? kernel(point, receiver.normal, emitter.centre, emitter.normal)
+                                             : pair_kernel(point, receiver.normal, emitter, odd);
+      sum += kInversePi * emitter.area * mean;
+    } else {
+      const Piece piece = emitter_piece(*scene_, *face.emitter);
+      sum += point_to_polygon(point, receiver.normal, piece.corner, piece.corners);
+    }
+  }
+  return sum;
+}
+
+/// All samples get the same share; false: the face looks the other way.
+bool FaceLight::share_out(const SubPatchView& view, const ReceiverGroup& group, double given, Face& face) const {
+  const Emitter& emitter = *face.emitter;
+  double share = given;
+  face.below = emitter.is_area() && view.receiver->height(emitter.centre) < emitter.radius;
+  if (!emitter.is_area()) {
+    if (!(emitter.height(view.centre) > 0)) return false;
+    share = emitter.area * kernel(view.centre, view.receiver->normal, emitter.centre, emitter.normal);
+    if (!(share > 0)) return false;
+  }
+  for (std::uint32_t k = 0; k < group.count; ++k) face.factor[k] = share;
+  return true;
 }
 
 FaceLook FaceLight::factors(const SubPatchView& view, const ReceiverGroup& group, FaceReach reach, std::uint32_t first,
                             std::uint32_t count) const {
   FaceLook look;
   for (std::uint32_t e = first; e < first + count; ++e) {
-    Face face{&emitters_->faces[e], count};
+    Face face;
+    face.emitter = &emitters_->faces[e];
     if (reach_of(view, *face.emitter) != reach) continue;
     face.tier = tier_of(view, face);
     if (face.tier == Tier::kNothing) continue;
@@ -278,36 +327,57 @@ FaceLook FaceLight::factors(const SubPatchView& view, const ReceiverGroup& group
 }
 
 FaceLook FaceLight::look(const SubPatchView& view, const ReceiverGroup& group, const Link& link, std::uint32_t first,
-                         std::uint32_t count, const LatticeBox& ends, const LatticeBox& whole) const {
+                         std::uint32_t count, const LatticeBox& ends, const LatticeBox& whole,
+                         const EndGrid* grid, double given) const {
   FaceLook look;
-  Aim aim, others;  // `others`: without the polyhedron's own facets
-  bool aimed = false, panes = false;
+  Aim aim;
+  std::size_t others = 0;  // facets of the aim that are not the polyhedron's own
+  bool aimed = false, panes = false, free = false;  // free: all of the polyhedron, shares don't matter
+  Batch batch;
   for (std::uint32_t e = first; e < first + count; ++e) {
-    Face face{&emitters_->faces[e], count};
-    face.tier = tier_of(view, face);
-    if (face.tier == Tier::kNothing) continue;
-    const FaceReach reach = reach_of(view, *face.emitter);
-    if (reach > look.reach) look.reach = reach;
-    find_factors(view, group, face);
-    if (!aimed) {
-      const bool leaves = is_split(view, *face.emitter);  // then the light has no other face
-      panes = intersector_->panes().any() && intersector_->panes().between(group.box, leaves ? whole : ends);
-      aim = others = aims_->towards(face.emitter->light, link, group.box, leaves ? whole : ends, whole);
-      if (!face.emitter->is_area() && aim.facets.size() > 0) {
-        const std::uint32_t own = scene_->meshes[face.emitter->mesh].object;
-        others.facets = aim.facets.first(intersector_->others_first(aim, own));
+    Face& face = batch.face[batch.count];
+    face.emitter = &emitters_->faces[e];
+    if (given >= 0) {
+      if (!share_out(view, group, given, face)) continue;
+    } else {
+      face.tier = tier_of(view, face);
+      if (face.tier == Tier::kNothing) continue;
+      const FaceReach reach = reach_of(view, *face.emitter);
+      if (reach > look.reach) look.reach = reach;
+      find_factors(view, group, face);
+      double largest = 0;
+      for (std::uint32_t k = 0; k < group.count; ++k) {
+        look.factor[k] += face.factor[k];
+        if (face.factor[k] > largest) largest = face.factor[k];
       }
+      if (!(largest > 0)) continue;
     }
-    look.clear = aim.clear() && !panes;
-    face.panes = panes;
+    const bool area = face.emitter->is_area();
+    look.split = is_split(view, *face.emitter);  // then the light has no other face
+    if (!aimed) {
+      aim = aims_->towards(face.emitter->light, link, group.box, look.split ? whole : ends, whole,
+                            look.split || grid == nullptr || !grid->usable() ? nullptr : grid);
+      others = aim.facets.size();
+      if (!area && others > 0) others = intersector_->others_first(aim, scene_->meshes[face.emitter->mesh].object);
+      panes = intersector_->panes().any() && intersector_->panes().between(group.box, look.split ? whole : ends);
+    }
     aimed = true;
-    const bool own_miss = others.facets.size() < aim.facets.size() &&
-                          own_facets_miss(*geometry_, *face.emitter, {group.lattice, group.count});
-    look_at(view, group, link, face, own_miss ? others : aim, look);
-    // What blocked came to the front.
-    if (!own_miss && !others.any_triangle && others.facets.size() < aim.facets.size()) {
-      intersector_->others_first(aim, scene_->meshes[face.emitter->mesh].object);
+    face.panes = panes;
+    look.clear = aim.clear() && !panes;
+    free = look.clear && given >= 0 && !area;
+    if (free) break;
+    if (look.split) {
+      look_at_leaves(view, group, link, face, aim, look);
+    } else if (area) {
+      look_at_area(view, group, link, face, aim, look);
+    } else if (++batch.count == kFacesAtOnce) {
+      look_at_faces(view, group, link, batch, aim, others, look);
     }
+  }
+  if (batch.count > 0) look_at_faces(view, group, link, batch, aim, others, look);
+  for (std::uint32_t k = 0; k < group.count && given >= 0; ++k) {
+    look.factor[k] = given;
+    if (free) look.tested[k] = look.arrives[k] = given;
   }
   return look;
 }

@@ -9,10 +9,12 @@
 //     scaled   the same with the contour integral from the sub-patch's centre for the mean: about 4 (r_p r_e / d^2)^2
 //     near     Lambert's contour integral from each sample, exact: all else, and wherever one crosses the other's plane
 //
-// The part of it that arrives is that of fixed segments from the samples to the face's ends (light/emitter.h), each
-// weighted by its kernel, so that a point near the horizon counts little and penumbrae are smooth; in the far tier all
-// count the same. Where an aim finds nothing in the way no segment is sent, and none is counted.
-// Stack: 1 KiB; no memory.
+// The part of it that arrives is that of fixed segments from the samples to the face's ends (light/emitter.h). Those to
+// an area light are weighted by their kernels, so that a point near the horizon counts little and penumbrae are smooth;
+// if it is nearer than its own radius they go to the leaves of a quadtree instead. Of a polyhedron each sample looks at
+// one end of every face, another than its neighbours', or at all where it is near. Segments are tested in bulk
+// (visibility/shadow.h). Where an aim finds nothing in the way none is sent, and none is counted.
+// Stack: 2 KiB; no memory.
 #pragma once
 
 #include <cstdint>
@@ -59,10 +61,15 @@ class FaceLight {
         emitters_(&emitters),
         tiers_(tiers) {}
 
-  /// Faces `first` to `first + count`, all of one light, ascending; `ends`: the box around the ends of all of them,
-  /// `whole`: around all their points.
+  /// Faces `first` to `first + count`, all of one light, ascending, of which the samples receive `given` together if it
+  /// isn't below 0: then shares of the faces are found roughly. `ends`: the box around the ends of all of them,
+  /// `whole`: around all their points; `grid`: of an area light's ends, or null.
   FaceLook look(const SubPatchView& view, const ReceiverGroup& group, const Link& link, std::uint32_t first,
-                std::uint32_t count, const LatticeBox& ends, const LatticeBox& whole) const;
+                std::uint32_t count, const LatticeBox& ends, const LatticeBox& whole, const EndGrid* grid,
+                double given) const;
+  /// The factor of all of them at one point, up to the error that is allowed; of two neighbouring points one is `odd`.
+  double factor_at(const Vec3& point, const Receiver& receiver, std::uint32_t first, std::uint32_t count,
+                   bool odd) const;
   /// Only `factor`, and of the faces within this reach; no segments.
   FaceLook factors(const SubPatchView& view, const ReceiverGroup& group, FaceReach reach, std::uint32_t first,
                    std::uint32_t count) const;
@@ -70,24 +77,25 @@ class FaceLight {
  private:
   enum class Tier : std::uint8_t { kNothing, kFar, kMiddle, kScaled, kNear };
   struct Face;
-  struct Tile {
-    std::uint32_t first, count;  // ends
-  };
-  struct Seen;
-  class Leaves;
+  struct Batch;
+  class EndWeights;
 
   Tier tier_of(const SubPatchView& view, Face& face) const;
+  double pair_kernel(const Vec3& point, const Vec3& normal, const Emitter& emitter, bool odd) const;
   double mean_kernel(const SubPatchView& view, const Emitter& emitter) const;
   void find_factors(const SubPatchView& view, const ReceiverGroup& group, Face& face) const;
-  /// Adds the face to `look`.
-  void look_at(const SubPatchView& view, const ReceiverGroup& group, const Link& link, Face& face, const Aim& aim,
-               FaceLook& look) const;
+  bool share_out(const SubPatchView& view, const ReceiverGroup& group, double given, Face& face) const;
   static bool is_split(const SubPatchView& view, const Emitter& emitter);
+  // What the segments found, added to `look`.
   void look_at_leaves(const SubPatchView& view, const ReceiverGroup& group, const Link& link, const Face& face,
-                      const Aim& aim, Seen& seen) const;
-  void look_at_ends(const SubPatchView& view, const ReceiverGroup& group, const Link& link, const Face& face,
-                    const Aim& aim, Seen& seen) const;
-  Aim narrowed(const ReceiverGroup& group, std::span<const LatticePoint> ends, const Aim& aim) const;
+                      const Aim& aim, FaceLook& look) const;
+  void look_at_area(const SubPatchView& view, const ReceiverGroup& group, const Link& link, const Face& face,
+                    const Aim& aim, FaceLook& look) const;
+  void look_at_faces(const SubPatchView& view, const ReceiverGroup& group, const Link& link, Batch& batch,
+                     const Aim& aim, std::size_t others, FaceLook& look) const;
+  void look_at_ends(const SubPatchView& view, const ReceiverGroup& group, const Link& link, const Batch& batch,
+                    const Aim& aim, std::size_t others, std::uint32_t e, FaceLook& look) const;
+  std::uint32_t ends_above(const SubPatchView& view, const Face& face, std::uint32_t first, std::uint32_t ends) const;
 
   const Scene* scene_;
   const Geometry* geometry_;

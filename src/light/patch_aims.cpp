@@ -2,6 +2,17 @@
 
 namespace shodo {
 
+namespace {
+
+bool within(const LatticeBox& part, const LatticeBox& box) {
+  for (int k = 0; k < 3; ++k) {
+    if (part.low[k] < box.low[k] || part.high[k] > box.high[k]) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 bool PatchAims::take(Arena& arena, std::uint32_t lights) {
   return arena.take("blockers by light", lights, lists_) && arena.take("blockers of a patch", kListed, facets_);
 }
@@ -16,12 +27,7 @@ void PatchAims::start(const LatticeBox& patch) {
   for (List& list : lists_) list = {0, kNotYet};
 }
 
-bool PatchAims::usable(const LatticeBox& from) const {
-  for (int k = 0; k < 3; ++k) {
-    if (from.low[k] < patch_.low[k] || from.high[k] > patch_.high[k]) return false;
-  }
-  return intersector_->seeking();
-}
+bool PatchAims::usable(const LatticeBox& from) const { return within(from, patch_) && intersector_->seeking(); }
 
 void PatchAims::keep(List& list, const Aim& aim) {
   if (aim.facets.size() > facets_.size() - used_) {
@@ -33,15 +39,29 @@ void PatchAims::keep(List& list, const Aim& aim) {
 }
 
 Aim PatchAims::towards(std::uint32_t l, const Link& link, const LatticeBox& from, const LatticeBox& ends,
-                       const LatticeBox& whole) {
+                       const LatticeBox& whole, const EndGrid* grid) {
+  if (l == last_light_ && grid == last_grid_ && within(from, last_from_)) return last_;
+  last_ = make(l, link, from, ends, whole, grid);
+  last_light_ = l;
+  last_grid_ = grid;
+  last_from_ = from;
+  return last_;
+}
+
+Aim PatchAims::make(std::uint32_t l, const Link& link, const LatticeBox& from, const LatticeBox& ends,
+                    const LatticeBox& whole, const EndGrid* grid) {
   List& list = lists_[l];
-  if (!usable(from) || list.count == kTooLong) return intersector_->aim(from, ends, link);
-  if (list.count == kNotYet) keep(list, intersector_->aim(patch_, whole, link));
-  if (list.count == kTooLong) return intersector_->aim(from, ends, link);
+  if (usable(from) && list.count == kNotYet) keep(list, intersector_->aim(patch_, whole, link));
+  if (!usable(from) || list.count == kTooLong) {
+    const Aim aim = intersector_->aim(from, ends, link);
+    return grid == nullptr ? aim : intersector_->sift(aim, from, *grid);
+  }
+  if (grid != nullptr) return intersector_->aim_among(facets_of(list), from, ends, *grid);
   return intersector_->aim_among(facets_of(list), from, ends);
 }
 
 Aim PatchAims::along(std::uint32_t l, const Link& link, const LatticeBox& from, const LatticeVector& direction) {
+  forget();
   List& list = lists_[l];
   if (!usable(from) || list.count == kTooLong) return intersector_->aim_along(from, direction, link);
   if (list.count == kNotYet) keep(list, intersector_->aim_along(patch_, direction, link));

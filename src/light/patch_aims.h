@@ -25,9 +25,13 @@ class PatchAims {
   /// The sub-patches that come next have their samples in this box mostly; an empty one: nothing is to be listed.
   void start(const LatticeBox& patch);
 
-  /// Wide aims from samples in `from` to ends of light l in `ends`, a part of `whole`, or along the way to a sun.
+  /// The last aim may not be used again: another sub-patch comes, or the intersector's list was used otherwise.
+  void forget() { last_light_ = kNone; }
+
+  /// Wide aims from samples in `from` to ends of light l in `ends`, a part of `whole`, or along the way to a sun. With
+  /// a grid of the ends, those only that it finds.
   Aim towards(std::uint32_t l, const Link& link, const LatticeBox& from, const LatticeBox& ends,
-              const LatticeBox& whole);
+              const LatticeBox& whole, const EndGrid* grid = nullptr);
   Aim along(std::uint32_t l, const Link& link, const LatticeBox& from, const LatticeVector& direction);
 
  private:
@@ -38,6 +42,8 @@ class PatchAims {
   };
 
   bool usable(const LatticeBox& from) const;
+  Aim make(std::uint32_t l, const Link& link, const LatticeBox& from, const LatticeBox& ends, const LatticeBox& whole,
+           const EndGrid* grid);
   std::span<const std::uint32_t> facets_of(const List& list) const { return facets_.subspan(list.first, list.count); }
   void keep(List& list, const Aim& aim);
 
@@ -46,6 +52,11 @@ class PatchAims {
   std::span<std::uint32_t> facets_;
   std::uint32_t used_ = 0;
   LatticeBox patch_;
+  // The last aim towards ends, used again from within its box.
+  std::uint32_t last_light_ = kNone;
+  const EndGrid* last_grid_ = nullptr;
+  LatticeBox last_from_;
+  Aim last_;
 };
 
 }  // namespace shodo

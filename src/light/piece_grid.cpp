@@ -92,9 +92,10 @@ Vec3 PieceGrid::point_at(const Parameter& at) const {
   return piece_->corner[0] + at.s * edge_s_ + at.t * edge_t_;
 }
 
-double PieceGrid::weight(std::uint32_t sample) const { return weight_at(parameter(sample)); }
+double PieceGrid::weight(std::uint32_t sample) const { return affine_ ? 1 : weight_at(parameter(sample)); }
 
 double PieceGrid::weight_at(const Parameter& at) const {
+  if (affine_) return 1;
   if (!(piece_->concave || piece_->cut) || piece_->corners == 3) return jacobian_ + at.s * along_s_ + at.t * along_t_;
   // Positive in the first half: 0-1-3 where the cut runs from 1 to 3, else 0-1-2. Samples on the cut belong to both.
   const double side = piece_->concave ? 1 - (at.s + at.t) : at.s - at.t;

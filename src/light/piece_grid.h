@@ -14,6 +14,8 @@ class PieceGrid {
   /// `middle_half`: all samples half as far from the centre (thin patches). The piece must outlive the grid.
   PieceGrid(const Piece& piece, std::uint32_t divisions, bool middle_half = false);
 
+  /// A triangle or a parallelogram: all samples have weight 1.
+  bool affine() const { return affine_; }
   std::uint32_t count() const { return divisions_ * divisions_; }
   Vec3 point(std::uint32_t sample) const;
   /// The sample's share of the area, up to a factor common to all: the Jacobian of the piece there, 1 if it is

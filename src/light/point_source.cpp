@@ -61,6 +61,13 @@ bool near_point(const Light& light, const Receiver& receiver, const Piece& piece
 }
 
 double near_point_mean(const Scene& scene, const Light& light, const Piece& piece, double step) {
+  if (light.aimed) {
+    bool any = false;
+    for (std::uint32_t k = 0; k < piece.corners; ++k) {
+      any = any || dot(light.towards, piece.corner[k] - light.position) > 0;
+    }
+    if (!any) return 0;
+  }
   Piece whole = piece;
   whole.corners = 4;                  // corner[3] of a triangle is corner[2]
   whole.concave = whole.cut = false;  // where a bilinear surface folds, solid angles cancel

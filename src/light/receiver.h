@@ -9,6 +9,7 @@
 
 #include "base/lattice.h"
 #include "base/vector.h"
+#include "light/factor_field.h"
 #include "visibility/geometry.h"
 
 namespace shodo {
@@ -22,6 +23,7 @@ struct Receiver {
   Vec3 anchor;  // a point of the plane
   FlatFront front;  // of the cell on the lattice
   std::span<const Triangle> own;  // a measuring plane's, which is no cell of a mesh; else none
+  PatchPlace place;  // on the patch, if that is a parallelogram
 
   /// Scene units; positive in front.
   double height(const Vec3& point) const { return dot(normal, point - anchor); }

@@ -38,7 +38,7 @@ ReceiverGroup gauss_group(const Scene& scene, const Geometry& geometry, const Re
 
 ReceiverGroup centre_group(const Scene& scene, const Geometry& geometry, const Receiver& receiver, const Piece& piece) {
   ReceiverGroup group;
-  group.ends_of_area = EndSet::kMany;
+  group.ends_of_area = kAllEnds;
   add(sample_at(scene, geometry, receiver, piece.centre()), group);
   return group;
 }
@@ -52,7 +52,7 @@ ReceiverGroup fine_group(const PieceGrid& grid) {
 
 ReceiverGroup grid_half(const PieceGrid& grid, std::uint32_t half) {
   ReceiverGroup group;
-  group.ends_of_area = half == 0 ? EndSet::kFew : EndSet::kFirstOfMany;
+  group.ends_of_area = half == 0 ? kFirstEnds : kSecondEnds;
   for (std::uint32_t k = 0; k < kGridSamples; ++k) {
     if (half_of(grid.corner_count() == 3, k) != half) continue;
     group.point[group.count] = grid.point(k);

@@ -25,7 +25,7 @@ inline constexpr std::uint32_t kMostInGroup = 10;
 
 struct ReceiverGroup {
   std::uint32_t count = 0;
-  EndSet ends_of_area = EndSet::kFew;  // which ends of an area light it looks at
+  EndSet ends_of_area = kFirstEnds;  // which ends of an area light it looks at
   Vec3 point[kMostInGroup];    // scene units
   LatticePoint lattice[kMostInGroup];
   std::uint8_t grid_index[kMostInGroup] = {};  // of PieceGrid

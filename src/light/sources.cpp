@@ -7,6 +7,9 @@ namespace shodo {
 
 namespace {
 
+/// A patch is as far from a light as so many of its own radii, or more, if its factors are interpolated.
+constexpr double kFieldRadii = 4;
+
 Vec3 unit_of(const LatticeVector& v) {
   return normalised({static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)});
 }
@@ -23,16 +26,96 @@ Status Sources::prepare(Arena& arena) {
   EmitterCount next;
   for (std::uint32_t l = 0; l < count(); ++l) {
     Source& source = sources_[l];
-    source.ends = source.whole = {};
+    source = {};
     source.first_emitter = next.faces;
     list_emitters(l, next);
     source.emitter_count = next.faces - source.first_emitter;
+    enclose(source);
+    if (light(l).kind == LightKind::kArea) {
+      const Emitter& emitter = emitters_.faces[source.first_emitter];
+      source.grid = EndGrid(emitters_.lattice_ends.subspan(emitter.first_end, kAreaEnds), emitter.box);
+    }
     if (light(l).kind == LightKind::kPoint) source.ends.include(geometry_->light_points[l]);
     if (light(l).kind != LightKind::kSun) continue;
     source.to_sun = lattice_direction(-light(l).towards);
     source.to_sun_unit = unit_of(source.to_sun);
   }
   return {};
+}
+
+void Sources::enclose(Source& source) const {
+  const std::span<const Emitter> faces = emitters_.faces.subspan(source.first_emitter, source.emitter_count);
+  for (const Emitter& face : faces) source.centre = source.centre + (1.0 / source.emitter_count) * face.centre;
+  for (const Emitter& face : faces) {
+    const double reach = length(face.centre - source.centre) + face.radius;
+    if (reach > source.radius) source.radius = reach;
+  }
+}
+
+void Sources::share_factors(const Receiver& receiver, const Piece& patch) {
+  shared_ = true;
+  patch_receiver_ = receiver;
+  patch_ = patch;
+  for (Source& source : sources_) source.field.state = FactorField::State::kNotYet;
+}
+
+/// Whether the patch is far enough from the light, and each is on one side of the other's plane.
+FactorField::State Sources::field_of(const Source& source) const {
+  const Vec3 centre = patch_.centre();
+  double radius = 0;
+  for (const Vec3& corner : patch_.corner) {
+    const double reach = length(corner - centre);
+    if (reach > radius) radius = reach;
+  }
+  const Emitter& face = emitters_.faces[source.first_emitter];
+  if (!face.is_area()) {
+    const double height = patch_receiver_.height(source.centre);
+    if (height <= -source.radius) return FactorField::State::kDark;
+    if (height < source.radius) return FactorField::State::kNone;
+    const double far = length(source.centre - centre) - source.radius;
+    return far >= kFieldRadii * radius ? FactorField::State::kUsable : FactorField::State::kNone;
+  }
+  const Piece light = emitter_piece(*scene_, face);
+  std::uint32_t above = 0, front = 0;
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    if (patch_receiver_.height(light.corner[k]) > 0) ++above;
+    if (face.height(patch_.corner[k]) > 0) ++front;
+  }
+  if (above == 0 || front == 0) return FactorField::State::kDark;
+  if (above < 4 || front < 4) return FactorField::State::kNone;
+  // The light's point next to the patch, as if its sides were square to each other.
+  Vec3 nearest = light.corner[0];
+  for (const Vec3& side : {light.corner[1] - light.corner[0], light.corner[3] - light.corner[0]}) {
+    const double at = dot(centre - light.corner[0], side) / length_squared(side);
+    nearest = nearest + (at > 1 ? 1 : at > 0 ? at : 0) * side;
+  }
+  const double reach = kFieldRadii * radius;
+  return length_squared(nearest - centre) >= reach * reach ? FactorField::State::kUsable : FactorField::State::kNone;
+}
+
+void Sources::fill(std::uint32_t l, Source& source) {
+  source.field.state = inverse_square(light(l)) ? field_of(source) : FactorField::State::kNone;
+  if (source.field.state != FactorField::State::kUsable) return;
+  const FaceLight faces = face_light();
+  const Vec3 side_s = patch_.corner[1] - patch_.corner[0], side_t = patch_.corner[3] - patch_.corner[0];
+  double value[FactorField::kNodes][FactorField::kNodes];
+  for (std::uint32_t j = 0; j < FactorField::kNodes; ++j) {
+    for (std::uint32_t i = 0; i < FactorField::kNodes; ++i) {
+      const double s = FactorField::node(i) + 0.5, t = FactorField::node(j) + 0.5;
+      const Vec3 point = patch_.corner[0] + s * side_s + t * side_t;
+      value[j][i] = faces.factor_at(point, patch_receiver_, source.first_emitter, source.emitter_count,
+                                    (i + j) % 2 != 0);
+    }
+  }
+  source.field.fit(value);
+}
+
+double Sources::shared_factor(std::uint32_t l, const Receiver& receiver) {
+  if (!shared_) return -1;
+  Source& source = sources_[l];
+  if (source.field.state == FactorField::State::kNotYet) fill(l, source);
+  if (source.field.state == FactorField::State::kDark) return 0;
+  return source.field.state == FactorField::State::kUsable ? source.field.mean(receiver.place) : -1;
 }
 
 Sources::EmitterCount Sources::count_emitters(const Scene& scene) {
@@ -156,17 +239,16 @@ Received Sources::receive_sun(std::uint32_t l, const Receiver& receiver, const S
   return received;
 }
 
-FaceLook Sources::look(std::uint32_t l, const SubPatchView& view, const ReceiverGroup& group) {
+FaceLook Sources::look(std::uint32_t l, const SubPatchView& view, const ReceiverGroup& group, double shared_factor) {
   const Source& source = sources_[l];
   aimed_ = kNone;  // another wide aim follows
-  const FaceLight faces(*scene_, *geometry_, *intersector_, aims_, emitters_, tiers_);
-  return faces.look(view, group, link(l, *view.receiver), source.first_emitter, source.emitter_count, source.ends,
-                    source.whole);
+  const EndGrid* const grid = light(l).kind == LightKind::kArea ? &source.grid : nullptr;
+  return face_light().look(view, group, link(l, *view.receiver), source.first_emitter, source.emitter_count,
+                           source.ends, source.whole, grid, shared_factor);
 }
 
 FaceLook Sources::factors(std::uint32_t l, const SubPatchView& view, const ReceiverGroup& group, FaceReach reach) {
-  const FaceLight faces(*scene_, *geometry_, *intersector_, aims_, emitters_, tiers_);
-  return faces.factors(view, group, reach, sources_[l].first_emitter, sources_[l].emitter_count);
+  return face_light().factors(view, group, reach, sources_[l].first_emitter, sources_[l].emitter_count);
 }
 
 /// E = pi L times the sum of F over the faces; visible: the mean of the faces' visible parts, weighted by F.

@@ -2,7 +2,7 @@
 // of an area or polyhedral light do these? (paper 2.1)
 //
 // With flags a light is aimed at once from all samples of a sub-patch, and the faces of it again: where nothing can
-// come between, no segment is sent. Bytes: 104 a light, and those of light/emitter.h and light/patch_aims.h.
+// come between, no segment is sent. Bytes: 392 a light, and those of light/emitter.h and light/patch_aims.h.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 #include "base/arena.h"
 #include "light/face_light.h"
+#include "light/factor_field.h"
 #include "light/receiver.h"
 #include "scene/scene.h"
 #include "visibility/geometry.h"
@@ -32,7 +33,19 @@ class Sources {
   const Light& light(std::uint32_t l) const { return scene_->lights[l]; }
 
   /// The patch that the receivers which come next belong to: around their samples, mostly (light/patch_aims.h).
-  void start_patch(const LatticeBox& patch) { aims_.start(patch); }
+  void start_patch(const LatticeBox& patch) {
+    aims_.start(patch);
+    shared_ = false;
+  }
+  /// They lie on this parallelogram, in its plane: light may be found for all of them together.
+  void share_factors(const Receiver& receiver, const Piece& patch);
+  /// Of an area or polyhedral light, nothing in the way: the mean over a sub-patch; -1: each is to ask for itself.
+  double shared_factor(std::uint32_t l, const Receiver& receiver);
+  /// A sub-patch of it comes.
+  void start_sub_patch() {
+    aims_.forget();
+    aimed_ = kNone;
+  }
   /// The samples that come next lie in or near this box (whatever it is, answers are the same): those of a sub-patch.
   void expect(const LatticeBox& samples);
 
@@ -42,7 +55,7 @@ class Sources {
   /// holds there too.
   Received receive(std::uint32_t l, const Receiver& receiver, const Sample& sample, bool trace_dark = false);
   /// Of an area or polyhedral light.
-  FaceLook look(std::uint32_t l, const SubPatchView& view, const ReceiverGroup& group);
+  FaceLook look(std::uint32_t l, const SubPatchView& view, const ReceiverGroup& group, double shared_factor = -1);
   /// The same without segments: `factor` only, of the faces within this reach.
   FaceLook factors(std::uint32_t l, const SubPatchView& view, const ReceiverGroup& group, FaceReach reach);
   /// What sample k of the group gets, given look().
@@ -63,8 +76,16 @@ class Sources {
     Vec3 to_sun_unit;
     LatticeBox ends;   // of segments
     LatticeBox whole;  // any point of the faces
+    EndGrid grid;      // of an area light's ends
+    Vec3 centre;         // of the sphere that holds an area light or polyhedron
+    double radius = 0;
+    FactorField field;   // over the patch
   };
 
+  FaceLight face_light() { return FaceLight(*scene_, *geometry_, *intersector_, aims_, emitters_, tiers_); }
+  void enclose(Source& source) const;
+  FactorField::State field_of(const Source& source) const;
+  void fill(std::uint32_t l, Source& source);
   Received receive_point(std::uint32_t l, const Receiver& receiver, const Sample& sample, bool trace_dark);
   Received receive_sun(std::uint32_t l, const Receiver& receiver, const Sample& sample);
   struct EmitterCount {
@@ -82,6 +103,9 @@ class Sources {
   double tiers_;
   PatchAims aims_;
   std::span<Source> sources_;
+  bool shared_ = false;  // what follows is of the patch at work
+  Receiver patch_receiver_;
+  Piece patch_;
   Emitters emitters_;
   LatticeBox expected_;                 // samples
   Aim aim_;                             // from them to light aimed_, for receiver aimed_object_

@@ -57,6 +57,7 @@ class SubPatch {
  public:
   SubPatch(Sources& sources, const Receiver& receiver, const Piece& piece, bool thin)
       : sources_(sources), receiver_(receiver), piece_(piece), grid_(piece, kGridCuts, thin), thin_(thin) {
+    sources.start_sub_patch();
     view_.receiver = &receiver;
     view_.centre = piece.centre();
     for (std::uint32_t k = 0; k < piece.corners; ++k) {
@@ -87,9 +88,9 @@ class SubPatch {
   [[gnu::noinline]] void add_faces(std::uint32_t l);
   void add_uniform(std::uint32_t l, const Received* received, const double* weight, std::uint32_t count);
   [[gnu::noinline]] void sample_finely(std::uint32_t l, const Received* probed, bool near, double mean);
-  double centre_sees(std::uint32_t l);
+  double centre_sees(std::uint32_t l, double shared);
   [[gnu::noinline]] Received near_mean(std::uint32_t l) const;
-  [[gnu::noinline]] void look_finely(std::uint32_t l, const Received& mean);
+  [[gnu::noinline]] void look_finely(std::uint32_t l, const Received& mean, double shared);
   double fine_weight(std::uint32_t k) const { return grid_.fine(k).weight * grid_.weight_at(grid_.fine(k).at); }
   void add_to_fine(std::uint32_t l, std::uint32_t k, const Received& received, double correction);
   [[gnu::noinline]] void add_fine();
@@ -160,17 +161,21 @@ void SubPatch::add_point(std::uint32_t l) {
 }
 
 void SubPatch::add_faces(std::uint32_t l) {
+  const double shared = sources_.shared_factor(l, receiver_);
+  if (shared == 0) return;
   if (gauss_.count == 0) {
     gauss_ = gauss_group(sources_.scene(), sources_.geometry(), receiver_, grid_);
     centre_ = centre_group(sources_.scene(), sources_.geometry(), receiver_, piece_);
     gauss_.box.include(centre_.box);  // what is clear for the ones is for the other
   }
-  const FaceLook look = sources_.look(l, view_, gauss_);
+  const FaceLook look = sources_.look(l, view_, gauss_, shared);
   Received received[kGaussSamples], mean;
-  double weight[kGaussSamples], total = 0;
-  for (std::uint32_t k = 0; k < kGaussSamples; ++k) {
-    weight[k] = grid_.weight_at(grid_.gauss(k));
-    total += weight[k];
+  double weight[kGaussSamples], total = kGaussSamples;
+  if (grid_.affine()) {
+    for (double& w : weight) w = 1;
+  } else {
+    total = 0;
+    for (std::uint32_t k = 0; k < kGaussSamples; ++k) total += weight[k] = grid_.weight_at(grid_.gauss(k));
   }
   double arrives = 0;
   for (std::uint32_t k = 0; k < kGaussSamples; ++k) {
@@ -181,26 +186,27 @@ void SubPatch::add_faces(std::uint32_t l) {
   }
   const bool unseen = !(mean.lux > 0);  // though a part of the sub-patch may be in front
   const double visible = unseen ? 0 : arrives / mean.lux;
-  if (look.reach != FaceReach::kFar) mean = near_mean(l);
+  if (shared < 0 && look.reach != FaceReach::kFar) mean = near_mean(l);
   if (!(mean.lux > 0)) return;
   mean.visible = visible;
+  const bool area = sources_.light(l).kind == LightKind::kArea;
   if (unseen || disagree(received, kGaussSamples, false)) {
-    look_finely(l, mean);
+    look_finely(l, mean, shared);
     return;
   }
   const bool all_free = look.clear && visible == 1;  // the centre would see the same
-  if (sources_.light(l).kind == LightKind::kArea && !all_free && !look.split) {
+  if (area && !all_free && !look.split) {
     // Both sets count by the number of places that they look at.
-    const double from_centre = centre_sees(l);
-    if (from_centre >= 0) mean.visible = (kFewEnds * visible + kManyEnds * from_centre) / kAreaEnds;
+    const double from_centre = centre_sees(l, shared);
+    if (from_centre >= 0) mean.visible = (kFewEnds * visible + kAreaEnds * from_centre) / (kFewEnds + kAreaEnds);
   }
   const double one = 1;
   add_uniform(l, &mean, &one, 1);
 }
 
 /// The part of an area light that is visible from the centre; -1 if the light is below its horizon.
-double SubPatch::centre_sees(std::uint32_t l) {
-  const FaceLook look = sources_.look(l, view_, centre_);
+double SubPatch::centre_sees(std::uint32_t l, double shared) {
+  const FaceLook look = sources_.look(l, view_, centre_, shared < 0 ? 1 : shared);  // any: only the part is asked for
   return look.tested[0] > 0 ? look.visible(0) : -1;
 }
 
@@ -285,12 +291,12 @@ void SubPatch::sample_finely(std::uint32_t l, const Received* probed, bool near,
 }
 
 /// Each half of the samples looks at ends of its own. Their values only share out the mean, which is known better.
-void SubPatch::look_finely(std::uint32_t l, const Received& mean) {
+void SubPatch::look_finely(std::uint32_t l, const Received& mean, double shared) {
   Received received[kGridSamples];
   double weight = 0, lux = 0;
   for (std::uint32_t half = 0; half < 2; ++half) {
     const ReceiverGroup group = grid_group(sources_.scene(), sources_.geometry(), receiver_, grid_, half);
-    const FaceLook look = sources_.look(l, view_, group);
+    const FaceLook look = sources_.look(l, view_, group, shared);
     for (std::uint32_t k = 0; k < group.count; ++k) {
       const std::uint32_t sample = group.grid_index[k];
       received[sample] = sources_.received(l, group, look, k);

@@ -49,8 +49,10 @@ std::uint32_t PictureOptics::fine_steps(double luminance_cd_m2) const {
 }
 
 bool PictureOptics::start(const Scene& scene, const Geometry& geometry, const DisplayMaps& maps,
-                          const SampleGrid& grid, Arena& arena) {
+                          const SampleGrid& grid, const Display& display, Arena& arena) {
   scene_ = &scene;
+  roll_ = display.roll;
+  black_ = fine_steps(display.min_cd_m2);
   geometry_ = &geometry;
   maps_ = maps;
   grid_ = grid;
@@ -98,7 +100,7 @@ std::uint32_t PictureOptics::optics_at(const DrawnTriangle& drawn) const {
 }
 
 bool PictureOptics::takes(const DrawnTriangle& drawn, bool front) const {
-  if (tree_.invisible(drawn, front)) return true;
+  if (roll_ || tree_.invisible(drawn, front)) return true;
   const std::uint32_t optics = optics_at(drawn);
   return optics != kNone && (front || any(parts_[optics].transmit, scene_->channels));
 }
@@ -118,10 +120,18 @@ void PictureOptics::add(std::uint32_t triangle, std::int32_t x0, std::int32_t x1
     follow(path, first, sum);
     std::uint32_t* const to = &sums[(static_cast<std::uint32_t>(x) >> grid_.shift) * channels];
     for (std::uint32_t c = 0; c < channels; ++c) {
-      const std::uint64_t steps = (sum[c] + (std::uint64_t{1} << (15 + kFineBits))) >> (16 + kFineBits);
+      const std::uint64_t fine = roll_ ? rolled(sum[c] >> 16) << 16 : sum[c];
+      const std::uint64_t steps = (fine + (std::uint64_t{1} << (15 + kFineBits))) >> (16 + kFineBits);
       to[c] += steps < kWhite ? static_cast<std::uint32_t>(steps) : kWhite;
     }
   }
+}
+
+/// v = (L - MIN) / (MAX - MIN) becomes 1 - 1 / (4 v) where it is above a half (display.h).
+std::uint64_t PictureOptics::rolled(std::uint64_t fine) const {
+  const std::uint64_t range = (std::uint64_t{kWhite} << kFineBits) - black_;
+  if (fine <= black_ || 2 * (fine - black_) <= range) return fine;
+  return black_ + range - range * range / (4 * (fine - black_));
 }
 
 /// Sums part times luminance along the path and all that branches off.

@@ -1,5 +1,5 @@
 // What mirrors, glass, highlights and the background show at a sample (paper 2.4: "reflection, transmission and
-// highlights are processed"; doc/optics.md).
+// highlights are processed"; deviation D18, doc/optics.md).
 //
 // The scanlines find what a sample sees first, exactly. Where that does more than reflect diffusely, the sample's ray
 // goes on: through panes to what stands behind them, nearest first; off mirrors in the mirrored direction, up to
@@ -37,13 +37,15 @@ class PictureOptics {
   /// Whether the scene asks for any of this.
   static bool used(const Scene& scene) { return !scene.optics.empty() || !scene.background.empty(); }
   /// Luminances are added here before they are shown, so black must be 0: such a scene's maps are made for a display
-  /// from 0 to MAX, and MIN is taken off by the table (fill_display_table).
+  /// from 0 to MAX, and MIN is taken off by the table (fill_display_table). Where brightness rolls off, all samples are
+  /// for add(), which bends the sum.
   static Display display_of(const Scene& scene) {
     return used(scene) ? Display{0, scene.display.max_cd_m2} : scene.display;
   }
 
+  /// `display`: the scene file's.
   [[nodiscard]] bool start(const Scene& scene, const Geometry& geometry, const DisplayMaps& maps,
-                           const SampleGrid& grid, Arena& arena);
+                           const SampleGrid& grid, const Display& display, Arena& arena);
   static std::uint64_t bytes(const Scene& scene, const Geometry& geometry);
 
   /// Whether samples that see this side of it first are for add().
@@ -62,6 +64,7 @@ class PictureOptics {
   };
   using Colour = std::uint64_t[3];
 
+  std::uint64_t rolled(std::uint64_t fine) const;
   void follow(const Path& path, const RayHit& first, Colour& sum);
   bool pass(const RayHit& hit, Path& path, Colour& sum);
   void add_surface(const DrawnTriangle& drawn, const RayHit& hit, const Path& path, Colour& sum) const;
@@ -82,6 +85,8 @@ class PictureOptics {
   std::span<std::uint32_t> light_;      // [light * channels + channel]: fine steps
   std::span<Path> waiting_;
   std::uint32_t waiting_count_ = 0;
+  bool roll_ = false;
+  std::uint64_t black_ = 0;             // fine steps of the display's MIN
   std::uint32_t horizon_[3] = {}, zenith_[3] = {}, ground_[3] = {};  // fine steps
   LatticeVector up_;                    // of the background, largest component 2^15
 };

@@ -53,7 +53,7 @@ struct Picture {
   DisplayMaps maps;
   VisibleLines lines;
   bool with_optics = false;
-  double black = 0;                // with optics: the display's MIN
+  Display display;                 // as the scene has it
   PictureOptics optics;
   Scene shown;                     // with optics: the scene on their display
   std::span<std::uint8_t> level;   // sRGB of display steps
@@ -73,10 +73,11 @@ bool prepare(Picture& picture, const IlluminanceMaps& maps, const Options& optio
   if (!arena.take("line of samples", sums_of(picture.grid, options.width, scene.channels, picture.with_optics),
                   picture.sums)) return false;
   if (!arena.take("line of pixels", std::size_t{3} * options.width, picture.rgb)) return false;
-  const Display& display = scene.display;
-  fill_display_table(picture.level, picture.with_optics ? picture.black / display.max_cd_m2 : 0);
+  const Display& display = picture.display;
+  fill_display_table(picture.level, picture.with_optics ? display.min_cd_m2 / display.max_cd_m2 : 0);
   if (!picture.lines.start(scene, *picture.geometry, picture.grid, arena)) return false;
-  return !picture.with_optics || picture.optics.start(scene, *picture.geometry, picture.maps, picture.grid, arena);
+  return !picture.with_optics ||
+         picture.optics.start(scene, *picture.geometry, picture.maps, picture.grid, display, arena);
 }
 
 MapTexels texels_of(const Picture& picture, const Mesh& mesh) {
@@ -205,11 +206,11 @@ Status draw_picture(const Scene& scene, const Geometry& geometry, const Illumina
   Picture picture;
   picture.scene = &scene;
   picture.geometry = &geometry;
+  picture.display = scene.display;
   if (PictureOptics::used(scene)) {
     picture.with_optics = true;
     picture.shown = scene;
     picture.shown.display = PictureOptics::display_of(scene);
-    picture.black = scene.display.min_cd_m2;
     picture.scene = &picture.shown;
   }
   picture.grid = grid_of(*camera, geometry.lattice, options);

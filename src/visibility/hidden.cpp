@@ -34,11 +34,17 @@ std::uint32_t hidden_samples(Intersector& intersector, std::span<const LatticePo
     for (std::uint32_t k = 0; k < samples.size(); ++k) {
       if ((open >> k & 1) != 0) box.include(samples[k]);
     }
-    const Aim gathered = intersector.gather_along(box, direction);
+    Aim gathered = intersector.gather_near(box, direction);
+    bool all = gathered.any_triangle;
     for (std::uint32_t k = 0; k < samples.size(); ++k) {
       const std::uint32_t bit = std::uint32_t{1} << k;
       if ((open & bit) == 0) continue;
-      const Hit hit = intersector.nearest(samples[k], direction, gathered);
+      Hit hit = intersector.nearest(samples[k], direction, gathered);
+      if (!all && !hit.near) {
+        gathered = intersector.gather_along(box, direction);
+        all = true;
+        hit = intersector.nearest(samples[k], direction, gathered);
+      }
       if (hit.triangle != kNone && !hit.front) ++backs[k];
       if (backs[k] == kEnoughBacks) hidden |= bit;
       if (backs[k] == 0 || backs[k] == kEnoughBacks) open &= ~bit;

@@ -1,5 +1,8 @@
 #include "visibility/intersector.h"
 
+#include <bit>
+#include <utility>
+
 #include "base/wide.h"
 #include "visibility/triangle_test.h"
 
@@ -127,6 +130,34 @@ Aim Intersector::aim_among(std::span<const std::uint32_t> facets, const LatticeB
   return keep_wide(facets, Shaft(a, b));
 }
 
+Aim Intersector::aim_among(std::span<const std::uint32_t> facets, const LatticeBox& a, const LatticeBox& b,
+                           const EndGrid& grid) {
+  LatticeBox around = a;
+  around.include(b);
+  std::uint32_t count = 0;
+  for (const std::uint32_t k : facets) {
+    const LatticeBox& box = blockers_.facets()[k].box;
+    if (apart(around, box)) continue;
+    const std::uint32_t hides = grid.shadow(box, a);
+    if (hides == 0) continue;
+    narrow_[count] = hides;
+    wide_[count++] = k;
+  }
+  return {wide_.first(count), false, narrow_.first(count), &grid};
+}
+
+Aim Intersector::sift(const Aim& wide, const LatticeBox& from, const EndGrid& grid) {
+  if (wide.any_triangle) return wide;
+  std::uint32_t count = 0;
+  for (const std::uint32_t k : wide.facets) {
+    const std::uint32_t hides = grid.shadow(blockers_.facets()[k].box, from);
+    if (hides == 0) continue;
+    narrow_[count] = hides;
+    wide.facets[count++] = k;
+  }
+  return {wide.facets.first(count), false, narrow_.first(count), &grid};
+}
+
 Aim Intersector::aim_along_among(std::span<const std::uint32_t> facets, const LatticeBox& a,
                                  const LatticeVector& direction) {
   return keep_wide(facets, Shaft::along(a, direction));
@@ -137,6 +168,14 @@ Aim Intersector::gather_along(const LatticeBox& a, const LatticeVector& directio
   std::uint32_t count = 0;
   blockers_.visit(Shaft::along(a, direction), [&](std::uint32_t k) { wide_[count++] = k; });
   return {wide_.first(count), false};
+}
+
+Aim Intersector::gather_near(const LatticeBox& a, const LatticeVector& direction) {
+  constexpr std::int64_t kRounding = (1 << kNearPart) - 1;
+  const auto part = [](std::int64_t x) {
+    return x < 0 ? -((kRounding - x) >> kNearPart) : (x + kRounding) >> kNearPart;
+  };
+  return gather_along(a, {part(direction.x), part(direction.y), part(direction.z)});
 }
 
 template <class Miss>
@@ -233,6 +272,59 @@ bool Intersector::ray_blocked(const LatticePoint& p, const LatticeVector& direct
                     aim);
 }
 
+/// `facets`: the aim's or a part of them; `hides` goes with all of them only. Blockers come to the front.
+std::uint32_t Intersector::shadow_among(const Segments& segments, std::uint32_t wanted, const Link& link,
+                                        std::span<std::uint32_t> facets, const Aim& aim) {
+  std::uint32_t shadow = 0, first = 0;
+  std::uint64_t tests = 0;
+  const LatticeBox from = box_of(segments.from);
+  Shaft shaft(from, segments.box);
+  const bool sifted = aim.grid != nullptr;
+  for (std::uint32_t k = 0; k < facets.size() && shadow != wanted; ++k) {
+    std::uint32_t open = wanted & ~shadow;
+    if (sifted) open &= aim.hides[k];
+    if (open == 0) continue;
+    const Facet& facet = blockers_.facets()[facets[k]];
+    tests += facet.count * static_cast<std::uint32_t>(std::popcount(open));
+    if (!sifted) {
+      if (shaft.misses(facet.box)) continue;
+    } else if (facet.rectangle == 0) {
+      open &= aim.grid->shadow(facet.box, from);
+      if (open == 0) continue;
+    }
+    const std::span<const Triangle> triangles = triangles_of(facet);
+    const std::uint32_t more = shadow_of(facet, triangles, segments, open);
+    if (more == 0) continue;
+    shadow |= more;
+    flags_.note_blocked(link, triangles[0].object);
+    std::swap(facets[k], facets[first]);
+    if (sifted) std::swap(aim.hides[k], aim.hides[first]);
+    ++first;
+  }
+  tests_[index(link.set)] += tests;
+  return shadow;
+}
+
+std::uint32_t Intersector::shadow(const Segments& segments, std::uint32_t wanted, const Link& link, const Aim& aim) {
+  return shadow(segments, wanted, link, aim, aim.facets.size(), 0);
+}
+
+std::uint32_t Intersector::shadow(const Segments& segments, std::uint32_t wanted, const Link& link, const Aim& aim,
+                                  std::size_t others, std::uint32_t own_wanted) {
+  std::uint32_t shadow = 0;
+  if (!features::kAims || aim.any_triangle) {
+    for (std::uint32_t left = wanted; left != 0; left &= left - 1) {
+      const std::uint32_t k = static_cast<std::uint32_t>(std::countr_zero(left));
+      if (blocked(segments.from, segments.ends[k], link, aim)) shadow |= std::uint32_t{1} << k;
+    }
+    return shadow;
+  }
+  segments_[index(link.set)] += static_cast<std::uint32_t>(std::popcount(wanted));
+  shadow = shadow_among(segments, wanted, link, aim.facets.first(others), aim);
+  if ((own_wanted & ~shadow) == 0) return shadow;
+  return shadow | shadow_among(segments, own_wanted & ~shadow, link, aim.facets.subspan(others), aim);
+}
+
 bool Intersector::blocked(const LatticePoint& p, const LatticePoint& q, const Link& link) {
   return blocked(p, q, link, aim({{&p, 1}, box_of(p)}, {{&q, 1}, box_of(q)}, link));
 }
@@ -259,6 +351,7 @@ Hit Intersector::nearest(const LatticePoint& p, const LatticeVector& direction, 
   if (!features::kAims || gathered.any_triangle) return nearest(p, direction);
   Nearest best;
   for (const std::uint32_t k : gathered.facets) offer(blockers_.facets()[k], p, direction, best);
+  best.hit.near = best.hit.triangle != kNone && best.distance <= best.speed >> kNearPart;
   return best.hit;
 }
 

@@ -14,9 +14,11 @@
 #include "base/arena.h"
 #include "shodo/options.h"
 #include "visibility/blockers.h"
+#include "visibility/end_grid.h"
 #include "visibility/flags.h"
 #include "visibility/geometry.h"
 #include "visibility/panes.h"
+#include "visibility/shadow.h"
 
 namespace shodo {
 
@@ -24,12 +26,16 @@ namespace shodo {
 struct Hit {
   std::uint32_t triangle = kNone;
   bool front = false;  // seen from its front
+  bool near = false;   // within kNearPart of the direction's length
 };
+inline constexpr int kNearPart = 4;  // bits: 1/16
 
 /// What can block the segments between two groups of ends. Valid until the next wide, or the next narrow, aim.
 struct Aim {
   std::span<std::uint32_t> facets;
-  bool any_triangle = true;  // nothing is known: flags off
+  bool any_triangle = true;         // nothing is known: flags off
+  std::span<std::uint32_t> hides{};  // by facet, the ends that it can hide, a bit each; empty: any
+  const EndGrid* grid = nullptr;     // of the ends, if there is `hides`
 
   /// No segment is blocked: none is needed.
   bool clear() const { return features::kAims && !any_triangle && facets.empty(); }
@@ -65,15 +71,27 @@ class Intersector {
 
   /// Of a list of facets (of a wide aim, to ends that hold these) what remains between two boxes; wide again.
   Aim aim_among(std::span<const std::uint32_t> facets, const LatticeBox& a, const LatticeBox& b);
+  /// The same to the ends of a grid, which b holds: as sift() leaves it.
+  Aim aim_among(std::span<const std::uint32_t> facets, const LatticeBox& a, const LatticeBox& b, const EndGrid& grid);
   Aim aim_along_among(std::span<const std::uint32_t> facets, const LatticeBox& a, const LatticeVector& direction);
+  /// Of a wide aim from a box to the ends of a grid what can hide any of them; wide, and no narrower aim while it is
+  /// in use.
+  Aim sift(const Aim& wide, const LatticeBox& from, const EndGrid& grid);
   /// Sorts the facets of an aim: those of other objects first; returns their number.
   std::size_t others_first(const Aim& aim, std::uint32_t object) const;
   /// Everything that rays from the box along `direction` may meet, whatever the flags; wide.
   Aim gather_along(const LatticeBox& a, const LatticeVector& direction);
+  /// The same for the first part of the rays only, where a hit is `near`.
+  Aim gather_near(const LatticeBox& a, const LatticeVector& direction);
 
   /// True if any triangle blocks the open segment from p to q. Counts a segment and its tests.
   bool blocked(const LatticePoint& p, const LatticePoint& q, const Link& link);
   bool blocked(const LatticePoint& p, const LatticePoint& q, const Link& link, const Aim& aim);
+  /// Those of `wanted` (bit k: segments.ends[k]) that are blocked; counts them and their tests. Facets of the aim from
+  /// `others` on are asked about `own_wanted` only.
+  std::uint32_t shadow(const Segments& segments, std::uint32_t wanted, const Link& link, const Aim& aim);
+  std::uint32_t shadow(const Segments& segments, std::uint32_t wanted, const Link& link, const Aim& aim,
+                       std::size_t others, std::uint32_t own_wanted);
   /// The same towards a sun: a ray from p along `direction` (lattice_direction, the way from p to the sun).
   bool ray_blocked(const LatticePoint& p, const LatticeVector& direction, const Link& link);
   bool ray_blocked(const LatticePoint& p, const LatticeVector& direction, const Link& link, const Aim& aim);
@@ -111,6 +129,8 @@ class Intersector {
   bool any_triangle(Try attempt) const;
   template <class Blocks>
   bool any_blocks(Blocks blocks, const LatticePoint& p, const LatticeVector& d, const Link& link, const Aim& aim);
+  std::uint32_t shadow_among(const Segments& segments, std::uint32_t wanted, const Link& link,
+                             std::span<std::uint32_t> facets, const Aim& aim);
   template <class Miss>
   Aim keep(const Aim& wide, Shaft shaft, Miss misses);
   Aim aim_in(const Shaft& shaft, const Link& link, std::span<std::uint32_t> list);

@@ -16,38 +16,44 @@ Shaft Shaft::along(const LatticeBox& a, const LatticeVector& direction) {
 /// along the line's normal: the normal's signs must be those of the corner. The normal is square to the way (du, dv)
 /// from the one to the other.
 void Shaft::add_lines(std::uint8_t u, std::uint8_t v) {
-  const LatticeBox &a = a_, &b = b_;
+  const auto low = [](std::int32_t x) { return x >> kSteps; };
+  const auto high = [](std::int32_t x) { return (x + (1 << kSteps) - 1) >> kSteps; };
+  const std::int32_t a_u[2] = {low(a_.low[u]), high(a_.high[u])}, a_v[2] = {low(a_.low[v]), high(a_.high[v])};
+  const std::int32_t way_u[2] = {low(b_.low[u]) - a_u[0], high(b_.high[u]) - a_u[1]};
+  const std::int32_t way_v[2] = {low(b_.low[v]) - a_v[0], high(b_.high[v]) - a_v[1]};
   for (std::uint32_t corner = 0; corner < 4; ++corner) {
-    const bool high_u = (corner & 1) != 0, high_v = (corner & 2) != 0;
-    const std::int32_t au = high_u ? a.high[u] : a.low[u], av = high_v ? a.high[v] : a.low[v];
-    const std::int32_t du = (high_u ? b.high[u] : b.low[u]) - au, dv = (high_v ? b.high[v] : b.low[v]) - av;
+    const std::uint32_t high_u = corner & 1, high_v = corner >> 1;
+    const std::int32_t du = way_u[high_u], dv = way_v[high_v];
     if (du == 0 || dv == 0) continue;  // a side of the common box
     const bool rising = (du > 0) == (dv > 0);
     if (rising == (high_u == high_v)) continue;
-    Line& line = lines_[lines_used_];
-    line.normal_u = (dv > 0) == high_u ? dv : -dv;
-    line.normal_v = (du > 0) == high_v ? du : -du;
+    const std::int32_t size_u = dv < 0 ? -dv : dv, size_v = du < 0 ? -du : du;
+    Line& line = lines_[lines_used_++];
     line.u = u;
     line.v = v;
-    // A flat facet's box may be one step too small: see facet_box().
-    const std::int64_t slack = (dv < 0 ? -dv : dv) + (du < 0 ? -du : du);
-    line.limit = std::int64_t{line.normal_u} * au + std::int64_t{line.normal_v} * av + slack;
-    ++lines_used_;
+    line.from_high_u = high_u == 0;
+    line.from_high_v = high_v == 0;
+    line.normal_u = high_u != 0 ? size_u : -size_u;
+    line.normal_v = high_v != 0 ? size_v : -size_v;
+    // The box's own corner is rounded down, and a flat facet's box may be one step too small: see facet_box().
+    line.limit = line.normal_u * a_u[high_u] + line.normal_v * a_v[high_v] + size_u + size_v;
   }
 }
 
+void Shaft::find_lines() {
+  lines_used_ = 0;
+  add_lines(0, 1);
+  add_lines(1, 2);
+  add_lines(2, 0);
+}
+
 bool Shaft::beyond_a_line(const LatticeBox& box) {
-  if (lines_used_ == kNotYet) {
-    lines_used_ = 0;
-    add_lines(0, 1);
-    add_lines(1, 2);
-    add_lines(2, 0);
-  }
-  for (std::uint32_t k = 0; k < lines_used_; ++k) {
-    const Line& line = lines_[k];
-    const std::int32_t u = line.normal_u > 0 ? box.low[line.u] : box.high[line.u];
-    const std::int32_t v = line.normal_v > 0 ? box.low[line.v] : box.high[line.v];
-    if (std::int64_t{line.normal_u} * u + std::int64_t{line.normal_v} * v > line.limit) return true;
+  if (lines_used_ == kNotYet) find_lines();
+  const Line* const end = lines_ + lines_used_;
+  for (const Line* line = lines_; line != end; ++line) {
+    const std::int32_t u = (line->from_high_u ? box.high : box.low)[line->u] >> kSteps;
+    const std::int32_t v = (line->from_high_v ? box.high : box.low)[line->v] >> kSteps;
+    if (line->normal_u * u + line->normal_v * v > line->limit) return true;
   }
   return false;
 }

@@ -2,11 +2,11 @@
 // Haines and Wallace 1991, shaft culling).
 //
 // Seen along an axis the boxes A and B are rectangles, and the hull of two rectangles has, besides sides of theirs,
-// edges from a corner of A to the same corner of B only: two mostly, four if they cross. So a box misses the hull if it
-// is outside the common box of A and B or beyond one of these lines. Exact: all of it, in integers. Approximate: hull
-// and box may still be apart where no axis shows it; that costs tests only. For a sun B is A moved along the direction,
-// which reaches out of the lattice's cube.
-// Stack: 370 bytes.
+// edges from a corner of A to the same corner of B only: two mostly, four if they cross. So a box misses the hull
+// if it is outside the common box of A and B or beyond one of these lines. Lines are found in steps of 64 of the
+// lattice, rounded outwards, so that products fit 32 bits. Exact: no box that meets the hull is missed.
+// Approximate: hull and box may be apart where no axis shows it; that costs tests only. For a sun B is A moved
+// along the direction, which reaches out of the lattice's cube. Stack: 330 bytes.
 #pragma once
 
 #include <cstdint>
@@ -25,13 +25,15 @@ class Shaft {
   bool misses(const LatticeBox& box) { return apart(around_, box) || beyond_a_line(box); }
 
  private:
-  /// Beyond: normal_u u + normal_v v > limit; the box's nearest corner counts.
+  static constexpr int kSteps = 6;  // of the lattice in one, log2
+  /// Beyond: normal_u u + normal_v v > limit, u and v of the box's nearest corner.
   struct Line {
-    std::int64_t limit;
-    std::int32_t normal_u, normal_v;
-    std::uint8_t u, v;  // axes
+    std::int32_t normal_u, normal_v, limit;
+    std::uint8_t u, v;          // axes
+    bool from_high_u, from_high_v;  // which side of the box is the nearest
   };
   bool beyond_a_line(const LatticeBox& box);
+  void find_lines();
   void add_lines(std::uint8_t u, std::uint8_t v);
 
   LatticeBox a_, b_, around_;

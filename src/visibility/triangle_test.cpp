@@ -14,7 +14,9 @@ std::int64_t along(const LatticeVector& m, const LatticePoint& q, const LatticeP
   return m.x * (q.x - p.x) + m.y * (q.y - p.y) + m.z * (q.z - p.z);
 }
 
-/// Whether the line from p along d passes the closed triangle; `through` is s(Q) - s(P) = N.d, not zero.
+}  // namespace
+
+/// `through` is s(Q) - s(P).
 bool line_meets(const Triangle& triangle, const LatticePoint& p, const LatticeVector& d, std::int64_t through) {
   const std::int32_t dx = static_cast<std::int32_t>(d.x), dy = static_cast<std::int32_t>(d.y),
                      dz = static_cast<std::int32_t>(d.z);
@@ -29,8 +31,6 @@ bool line_meets(const Triangle& triangle, const LatticePoint& p, const LatticeVe
   const std::int64_t ca = through - ab - bc;
   return through > 0 ? ca >= 0 : ca <= 0;
 }
-
-}  // namespace
 
 bool blocks_segment(const Triangle& triangle, const LatticePoint& p, const LatticePoint& q) {
   const std::int64_t sp = triangle.side(p);

@@ -11,4 +11,7 @@ bool blocks_segment(const Triangle& triangle, const LatticePoint& p, const Latti
 /// Closed triangle, open ray from p along `direction` (components within +-2^20); exact.
 bool blocks_ray(const Triangle& triangle, const LatticePoint& p, const LatticeVector& direction);
 
+/// Part of both: whether the line from p along d passes the closed triangle; `through` is N.d, not zero.
+bool line_meets(const Triangle& triangle, const LatticePoint& p, const LatticeVector& d, std::int64_t through);
+
 }  // namespace shodo

@@ -238,6 +238,23 @@ TEST(Measured, OtherPicturesStayAsTheyAre) {
   EXPECT_EQ(file_text(folder / "a.ppm"), file_text(folder / "b.ppm"));
 }
 
+TEST(Measured, LessMemoryChangesNoPixel) {
+  const TestFolder folder;
+  folder.write("floor.scn", kFloor + "plane work -1 -1 0.5  1 -1 0.5  1 1 0.5  -1 1 0.5 patches 2 1 sub 1 3\n");
+  const auto words = [](const std::string& name, const std::string& memory) {
+    return Running::Words{"render", "floor.scn", "-o",   name,             "--size", "40x30",    "--memory", memory,
+                          "--isolux", "auto",    "--show", "patches", "--summary", name + ".csv"};
+  };
+  const Outcome refused = run(words("a.ppm", "1K"), folder.path());
+  ASSERT_EQ(refused.status, 4);
+  const std::size_t at = refused.err.find("(--memory ") + 10;
+  const std::string smallest = refused.err.substr(at, refused.err.find(')', at) - at);
+  ASSERT_EQ(run(words("a.ppm", smallest), folder.path()).status, 0) << smallest;
+  ASSERT_EQ(run(words("b.ppm", "8M"), folder.path()).status, 0);
+  EXPECT_EQ(file_text(folder / "a.ppm"), file_text(folder / "b.ppm"));
+  EXPECT_EQ(file_text(folder / "a.ppm.csv"), file_text(folder / "b.ppm.csv"));
+}
+
 std::vector<std::string> fields(const std::string& line) {
   std::vector<std::string> result(1);
   for (const char c : line) {

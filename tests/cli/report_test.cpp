@@ -317,6 +317,17 @@ TEST(ReportCases, NoneIsThereTwiceAndTheFirstIsTheBase) {
   }
 }
 
+TEST(ReportCases, LightOverMirrorsIsACaseWhereThereAreAnyAndInTheReferenceAlways) {
+  const auto has = [](const std::vector<ReportCase>& cases) {
+    bool found = false;
+    for (const ReportCase& c : cases) found = found || (c.options.mirror_light && c.other == "mirror-light on");
+    return found;
+  };
+  EXPECT_FALSE(has(report_cases({})));
+  EXPECT_TRUE(has(report_cases({}, true)));
+  EXPECT_TRUE(reference_options({}).mirror_light);
+}
+
 TEST(ReportCases, TheReferenceIsNoCoarserThanTheBase) {
   Options base;
   base.refine = 3;

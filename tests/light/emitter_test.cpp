@@ -68,15 +68,18 @@ TEST(Emitter, EachSetOfEndsIsMappedOnItselfByMirrorImagesOfItsLight) {
       Rectangle light(ratio, 1, turn);
       ASSERT_TRUE(light.scene.status.done());
       const Ends ends(light.scene, area_emitter(light.scene.scene, 0));
-      Places few, many, first;
+      Places first, second, all;
       for (std::uint32_t k = 0; k < kAreaEnds; ++k) {
         const std::pair<double, double> at{ends.point(k).x, ends.point(k).y};
         EXPECT_LT(std::fabs(at.first), ratio);
         EXPECT_LT(std::fabs(at.second), 1);
-        (k < kFewEnds ? few : many).push_back(at);
-        if (k >= kFewEnds && (k - kFewEnds) % kManyInQuarter < kFewInQuarter) first.push_back(at);
+        all.push_back(at);
+        if ((kFirstEnds >> k & 1) != 0) first.push_back(at);
+        if ((kSecondEnds >> k & 1) != 0) second.push_back(at);
       }
-      for (const Places& set : {few, many, first}) {
+      EXPECT_EQ(first.size(), 8u);
+      EXPECT_EQ(second.size(), 8u);
+      for (const Places& set : {first, second, all}) {
         for (const bool swapped : {false, true}) {
           if (swapped && ratio != 1) continue;
           EXPECT_TRUE(same(set, mirrored(set, -1, 1, swapped))) << ratio << ", " << turn;
@@ -91,12 +94,10 @@ TEST(Emitter, EachSetOfEndsIsMappedOnItselfByMirrorImagesOfItsLight) {
 TEST(Emitter, NoTwoOfASquaresEndsShareAColumnButMirrorImages) {
   Rectangle light(1, 1, 0);
   const Ends ends(light.scene, area_emitter(light.scene.scene, 0));
-  for (const auto& [first, last, columns] : {std::array<std::uint32_t, 3>{0, kFewEnds, 4}, {kFewEnds, kAreaEnds, 16}}) {
-    std::vector<double> x;
-    for (std::uint32_t k = first; k < last; ++k) x.push_back(ends.point(k).x);
-    std::sort(x.begin(), x.end());
-    for (std::uint32_t k = 0; k < x.size(); ++k) EXPECT_NEAR(x[k], (2 * (k / 2) + 1.0) / columns - 1, 1e-12);
-  }
+  std::vector<double> x;
+  for (std::uint32_t k = 0; k < kAreaEnds; ++k) x.push_back(ends.point(k).x);
+  std::sort(x.begin(), x.end());
+  for (std::uint32_t k = 0; k < x.size(); ++k) EXPECT_NEAR(x[k], (2 * (k / 2) + 1.0) / 16 - 1, 1e-12);
 }
 
 TEST(Emitter, AnyPointOfAnAreaLightEndsInItsBox) {
@@ -163,7 +164,9 @@ TEST(Emitter, NoFacetOfItsOwnBlocksWhereAFaceSaysSo) {
           if (t.object != 0) continue;
           for (const LatticePoint& end : ends.lattice()) any = any || twin::blocks_segment(t, sample, end);
         }
-        const bool miss = own_facets_miss(scene.geometry, ends.face(), {&sample, 1});
+        LatticeBox box;
+        box.include(sample);
+        const bool miss = own_facets_miss(scene.geometry, ends.face(), box);
         EXPECT_FALSE(miss && any) << "kind " << kind << ", face " << m;
         said[kind] += miss ? 1 : 0;
         blocked += any ? 1 : 0;

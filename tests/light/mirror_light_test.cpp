@@ -18,9 +18,13 @@ class Lit {
     Options options;
     options.mirror_light = mirror_light;
     options.flags = flags;
+    options.scale_rows = false;  // the scenes are open, and two of them are compared
     const Status loaded = load("top.scn", text, {}, options, memory_.data(), memory_.size(), model_);
     EXPECT_TRUE(loaded.done()) << loaded.message;
     EXPECT_TRUE(solve(*model_, {}).done());
+  }
+  double ambient(std::size_t sub_patch, std::uint32_t c = 0) const {
+    return static_cast<double>(model_->maps.ambient_lx[sub_patch * model_->scene.channels + c]);
   }
   double lux(std::size_t sub_patch, std::uint32_t c = 0) const {
     return static_cast<double>(model_->maps.direct_lx[sub_patch * model_->scene.channels + c]);
@@ -112,6 +116,25 @@ TEST(MirrorLight, AnAreaLightShinesAsItsImageThroughAHole) {
     const double expected = both.lux(k) - alone.lux(k);
     EXPECT_NEAR(area.lux(k) - area_off.lux(k), expected, 0.01 * expected);
     EXPECT_NEAR(faces.lux(k) - faces_off.lux(k), expected, 0.01 * expected);
+  }
+}
+
+TEST(MirrorLight, DiffuseSurfacesSendEachOtherLightOverMirrors) {
+  // The sun lights the floor, straight down; a wall at x = 2 sees the floor, and its image in the mirror at x = 0. The
+  // other scene has a floor there, darker by what the mirror takes.
+  const std::string wall = "object wall\nquad black 2 0 0  2 0 2  2 2 2  2 2 0  patches 4 4 sub 1 1\n";
+  const std::string sun = "light s sun towards 0 -1 0 illuminance 1000\n";
+  const std::string image = "material darker diffuse 0.4 0.3 0.2\nobject image\n"
+                            "quad darker -2 0 0  -2 0 2  0 0 2  0 0 0  patches 4 4 sub 2 2\n";
+  const Lit off(kFloor + wall + kMirror + sun, false), on(kFloor + wall + kMirror + sun), both(kFloor + image + wall + sun);
+  for (std::size_t k = 0; k < 16; ++k) {
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      const double mirrored = on.ambient(64 + k, c) - off.ambient(64 + k, c);
+      const double expected = both.ambient(128 + k, c) - off.ambient(64 + k, c);
+      ASSERT_GT(expected, 1);
+      // 16 kernels a pair here, the near tiers there.
+      EXPECT_NEAR(mirrored, expected, 0.01 * both.ambient(128 + k, c)) << k << ' ' << c;
+    }
   }
 }
 

@@ -44,6 +44,9 @@ std::uint64_t hash_of_maps(const Model& model) {
   for (const double x : model.direct.patch_lx) hash.add(std::bit_cast<std::uint64_t>(x));
   for (const double x : model.ambient.patch_lx) hash.add(std::bit_cast<std::uint64_t>(x));
   for (const std::uint8_t x : model.maps.hidden) hash.add(x);
+  for (const float x : model.planes.direct_lx) hash.add(std::bit_cast<std::uint32_t>(x));
+  for (const float x : model.planes.ambient_lx) hash.add(std::bit_cast<std::uint32_t>(x));
+  for (const std::uint8_t x : model.planes.hidden) hash.add(x);
   return hash.value();
 }
 

@@ -209,6 +209,15 @@ TEST(PictureOptics, HighlightsOfAllKindsOfLights) {
                  "light l polyhedron object lamp luminance 2500\n", small(64, 48));
 }
 
+TEST(PictureOptics, BrightnessRollsOffAfterAllIsAdded) {
+  std::string text = kRoom;
+  text.replace(text.find("display 1 250"), 13, "display 4 60 roll");
+  expect_as_twin(text + "background zenith 20 50 120 horizon 150 160 180 ground 60 50 30\n"
+                 "object m\nquad mirror 0.5 0.5 0.1  2.5 0.5 0.3  2.5 2.5 0.3  0.5 2.5 0.1\n"
+                 "quad glass 1.5 0.5 1  3.5 0.5 1  3.5 2.5 1  1.5 2.5 1\n"
+                 "light l area quad 2.2 2.9 1  3 2.9 1  3 2.9 1.6  2.2 2.9 1.6 luminance 500\n", small(120, 90, 4));
+}
+
 TEST(PictureOptics, TheBackgroundIsSeenByDirectionThroughOpeningsToo) {
   expect_as_twin(kRoom + "background zenith 20 50 120 horizon 150 160 180 ground 60 50 30 up 0.1 1 0.2\n"
                  "object pane\nquad red 0.5 0.5 0.5 2 0.5 0.5 2 2.5 0.5 0.5 2.5 0.5\n"

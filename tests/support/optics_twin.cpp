@@ -221,7 +221,11 @@ std::array<int, 3> OpticsTwin::level(std::uint32_t px, std::uint32_t py, double 
   for (std::uint32_t j = 0; j < across; ++j) {
     for (std::uint32_t i = 0; i < across; ++i) {
       const Colour sample = luminance(px * across + i + dx, py * across + j + dy);
-      for (int c = 0; c < 3; ++c) mean[c] += std::min(sample[c], display.max_cd_m2) / (across * across);
+      for (int c = 0; c < 3; ++c) {
+        const double range = display.max_cd_m2 - display.min_cd_m2, v = (sample[c] - display.min_cd_m2) / range;
+        const double shown = display.roll && v > 0.5 ? display.min_cd_m2 + range * (1 - 0.25 / v) : sample[c];
+        mean[c] += std::min(shown, display.max_cd_m2) / (across * across);
+      }
     }
   }
   for (int c = 0; c < 3; ++c) {
