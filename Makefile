@@ -95,10 +95,8 @@ doc/pictures/isolux.png: SCENE = door
 doc/pictures/isolux.png: SHOWN = --isolux auto
 doc/pictures/patches.png: SCENE = stair
 doc/pictures/patches.png: SHOWN = --show patches
-doc/pictures/patches.png: PICTURE_SIZE = 320x256
-PICTURE_SIZE = 400x320
 doc/pictures/%.png: $(BUILD)/shodo $(wildcard data/*)
-	$(BUILD)/shodo render data/$(SCENE).scn -o $@ --size $(PICTURE_SIZE) $(SHOWN)
+	$(BUILD)/shodo render data/$(SCENE).scn -o $@ --size 400x320 $(SHOWN)
 doc/pictures/difference.png: $(BUILD)/shodo data/door.scn
 	@mkdir -p $(OUT)
 	$(BUILD)/shodo render data/door.scn -o $(OUT)/door.ppm --size 400x320
@@ -191,8 +189,8 @@ clean:
 	rm -rf $(BUILD) $(OUT)
 
 FORCE:
-.PHONY: all rooms pictures report test hard stability load coverage check-same-bytes fuzz soak mutants machines workstation \
-  scaling memory-cost check-budgets install install-needs clean FORCE
+.PHONY: all rooms pictures report test hard stability load coverage check-same-bytes fuzz soak mutants machines \
+  workstation scaling memory-cost check-budgets install install-needs clean FORCE
 .SECONDARY:
 
 -include $(COVERED_OBJECTS:.o=.d) $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(TEST_OBJECTS:.o=.d)
