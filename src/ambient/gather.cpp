@@ -26,11 +26,12 @@ class Gather {
   Gather(const GatherScene& scene, const Options& options, std::span<GatherPoint> points, std::span<float> ambient_lx)
       : scene_(scene), options_(options), points_(points), ambient_lx_(ambient_lx), group_(scene) {}
 
-  void patch(std::uint32_t node, std::uint32_t place);
+  // Not inlined: the stack of one is needed while the others' isn't.
+  [[gnu::noinline]] void patch(std::uint32_t node, std::uint32_t place);
 
  private:
-  bool place_point(std::uint32_t mesh_index, std::uint32_t cell, std::uint32_t local, bool thin, GatherPoint& point);
-  void finish(std::uint32_t node, std::uint32_t place, std::uint32_t count);
+  [[gnu::noinline]] bool place_point(std::uint32_t mesh_index, std::uint32_t cell, std::uint32_t local, bool thin, GatherPoint& point);
+  [[gnu::noinline]] void finish(std::uint32_t node, std::uint32_t place, std::uint32_t count);
   double scale_of(const GatherPoint& point) const;
 
   const GatherScene& scene_;

@@ -12,6 +12,7 @@ constexpr double kSmallest = 16;      // so many times smaller than the mean, pa
 constexpr double kMostQ = 0.35;       // of the series
 constexpr double kSeriesShare = 0.5;  // its error is that times q^2
 constexpr double kBendShare = 1.0 / 8;  // of the second order over the group
+constexpr double kCloseShare = 1.0 / 32;
 constexpr double kBelow = 1.0 / 32;   // of a node's longest side, may lie behind the receiver's plane
 constexpr std::int32_t kMoved = 16;   // samples are moved in front of their surface by less than that
 
@@ -26,6 +27,8 @@ void GatherGroup::add_close(GatherPoint& point, std::uint32_t k, double weight) 
   const GatherPoint::Close& close = point.close[k];
   for (std::uint32_t c = 0; c < scene_.surfaces.scene->channels; ++c) point.lx[c] += weight * close.lx[c];
   point.factor += weight * close.factor;
+  // All else is found at the centre: what curves over the sub-patch counts there and here differently.
+  point.geometry_error += kCloseShare * weight * close.factor;
 }
 
 LatticeBox GatherGroup::samples_box(std::uint32_t j) const {

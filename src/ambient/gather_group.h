@@ -113,6 +113,8 @@ class GatherGroup {
   void gather_polygon(const Look& look, const Piece& piece, bool clear);
   void gather_close(GatherPoint& point, const Piece& piece, bool planar, const double* radiosity,
                     const LatticePoint* to, std::uint32_t ends, bool clear);
+  struct Part;
+  double part_factor(GatherPoint& point, const Part& part) const;
   void gather_parts(const Look& look, bool clear);
   double visible(GatherPoint& point, std::uint32_t turn, const LatticePoint* to, std::uint32_t ends,
                  std::uint32_t segments, double factor);

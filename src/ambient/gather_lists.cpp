@@ -45,7 +45,7 @@ LatticeBox box_of_mesh(const Scene& scene, const Geometry& geometry, std::uint32
 std::uint64_t GatherLists::bytes(const Scene& scene, const Geometry& geometry, FlagMode flags) {
   const std::uint64_t objects = scene.objects.size(), facets = Blockers::facet_count(geometry);
   return 2 * std::uint64_t{kListedFacets} + (4 * facets + 7) / 8 * 8 +
-         objects * (sizeof(LatticeBox) + 2 * sizeof(List)) +
+         objects * sizeof(LatticeBox) + 2 * ((objects * sizeof(List) + 7) / 8 * 8) +
          (flags == FlagMode::kOff ? Blockers::bytes(geometry) : 0);
 }
 

@@ -60,7 +60,7 @@ class GatherLists {
   struct Part {
     std::uint32_t end, first, count;
   };
-  static constexpr std::uint32_t kDeepest = 48;
+  static constexpr std::uint32_t kDeepest = 24;
   // Parts of `words_`.
   static constexpr std::uint32_t kOfRegion = kListedFacets * 5 / 8, kOfGroup = kListedFacets / 4;
 

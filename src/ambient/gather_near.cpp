@@ -112,6 +112,27 @@ void GatherGroup::gather_polygon(const Look& look, const Piece& piece, bool clea
   }
 }
 
+/// A sub-patch that sends.
+struct GatherGroup::Part {
+  Piece piece;
+  Vec3 centre, normal;
+  double area, side;
+  bool planar;
+};
+
+/// By the kernel between the centres, or by the contour.
+double GatherGroup::part_factor(GatherPoint& point, const Part& part) const {
+  const Vec3 from = centre_ + point.offset, way = part.centre - from;
+  const double over_i = dot(normal_, way), squared = length_squared(way);
+  const double q = part.side * part.side / (3 * squared);
+  if (q > kPartQ || over_i < part.side) return piece_factor(from, normal_, part.piece, part.planar);
+  const double over_j = -dot(part.normal, way);
+  if (!(over_j > 0)) return 0;
+  const double factor = over_i * over_j * part.area * kInversePi / (squared * squared);
+  point.geometry_error += kPartShare * q * factor;
+  return factor;
+}
+
 void GatherGroup::gather_parts(const Look& look, bool clear) {
   const Surfaces& s = scene_.surfaces;
   const Mesh& mesh = s.mesh(look.node);
@@ -131,26 +152,19 @@ void GatherGroup::gather_parts(const Look& look, bool clear) {
                              static_cast<double>(scene_.ambient_lx[value]));
     }
     const double level = scene_.senders.level_of(sends);
-    const Piece piece = sub_patch_piece(*s.scene, mesh, k);
-    const Vec3 centre = piece.centre();
-    const LatticePoint end = sample_point(*s.scene, *s.geometry, mesh_index, cell, centre);
-    const double area = length(piece.vector_area()) * kInversePi;
-    const double side = piece.longest_side(), near = side * side / (3 * kPartQ);
+    Part part{sub_patch_piece(*s.scene, mesh, k), {}, look.patch->normal, 0, 0, planar};
+    part.centre = part.piece.centre();
+    part.area = length(part.piece.vector_area());
+    part.side = part.piece.longest_side();
+    const LatticePoint end = sample_point(*s.scene, *s.geometry, mesh_index, cell, part.centre);
     for (GatherPoint& point : points_) {
       turn += 5;
-      const Vec3 from = centre_ + point.offset, way = centre - from;
-      const double over_i = dot(normal_, way), over_j = -dot(look.patch->normal, way), squared = length_squared(way);
-      if (squared < kClose * (side * side + point.side_squared)) {
-        gather_close(point, piece, planar, sends, &end, 1, clear);
+      const double squared = length_squared(part.centre - centre_ - point.offset);
+      if (squared < kClose * (part.side * part.side + point.side_squared)) {
+        gather_close(point, part.piece, planar, sends, &end, 1, clear);
         continue;
       }
-      double factor;
-      if (squared < near || over_i < side) {
-        factor = piece_factor(from, normal_, piece, planar);
-      } else {
-        factor = over_j > 0 ? over_i * over_j * area / (squared * squared) : 0;
-        point.geometry_error += kPartShare * factor * side * side / (3 * squared);
-      }
+      double factor = part_factor(point, part);
       if (!(factor > 0)) continue;
       const double w = factor * level;
       const std::uint32_t segments = w <= kOneSegment * error_ ? 1 : w <= kMostMixed * error_ ? 2 : 4;

@@ -67,6 +67,7 @@ std::string with_sub_patches(std::string text, const std::string& counts) {
 Options precise() {
   Options options;
   options.tolerance = 1e-10;
+  options.gather_error = 2e-4;
   return options;
 }
 

@@ -89,7 +89,8 @@ void sweep(Sweep& sweep, std::uint64_t step) {
   EXPECT_GT(sweep.lit_again, 0u);
   EXPECT_GT(sweep.placed_again, 0u);
   EXPECT_TRUE(sweep.geometry_again > 0 || !sweep.rules.blocks);
-  EXPECT_GT(sweep.rows_recomputed, 0u);
+  // In a small scene a gather needs more memory than all rows.
+  EXPECT_TRUE(sweep.rows_recomputed > 0 || sweep.gather);
   EXPECT_LT(sweep.rows_recomputed, sweep.done);
 }
 
