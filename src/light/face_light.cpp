@@ -1,7 +1,6 @@
 #include "light/face_light.h"
 
-#include <bit>
-
+#include "base/bits.h"
 #include "light/face_leaves.h"
 #include "light/polygon_factor.h"
 
@@ -169,22 +168,20 @@ std::uint32_t FaceLight::ends_above(const SubPatchView& view, const Face& face, 
 class FaceLight::EndWeights {
  public:
   EndWeights(const SubPatchView& view, const EmitterEnd* ends, std::uint32_t above) : ends_(ends), above_(above) {
-    for (std::uint32_t left = above; left != 0; left &= left - 1) {
-      const std::uint32_t e = static_cast<std::uint32_t>(std::countr_zero(left));
+    for_each_bit(above, [&](std::uint32_t e, std::uint32_t) {
       height_[e] = ends[e].weight * view.receiver->height(ends[e].point);
-    }
+    });
   }
   /// The part that arrives at a sample: kernels of the ends that are free over those of all.
   template <class Pass>
   double part(const Vec3& sample, std::uint32_t shadow, Pass pass) const {
     double all = 0, arrives = 0;
-    for (std::uint32_t left = above_; left != 0; left &= left - 1) {
-      const std::uint32_t e = static_cast<std::uint32_t>(std::countr_zero(left));
+    for_each_bit(above_, [&](std::uint32_t e, std::uint32_t bit) {
       const double squared = length_squared(ends_[e].point - sample);
       const double weight = height_[e] / (squared * squared);
       all += weight;
-      if ((shadow >> e & 1) == 0) arrives += pass(weight, e);
-    }
+      if ((shadow & bit) == 0) arrives += pass(weight, e);
+    });
     return arrives / all;
   }
 

@@ -1,8 +1,8 @@
 #include "visibility/intersector.h"
 
-#include <bit>
 #include <utility>
 
+#include "base/bits.h"
 #include "base/wide.h"
 #include "visibility/triangle_test.h"
 
@@ -285,7 +285,7 @@ std::uint32_t Intersector::shadow_among(const Segments& segments, std::uint32_t 
     if (sifted) open &= aim.hides[k];
     if (open == 0) continue;
     const Facet& facet = blockers_.facets()[facets[k]];
-    tests += facet.count * static_cast<std::uint32_t>(std::popcount(open));
+    tests += facet.count * count_bits(open);
     if (!sifted) {
       if (shaft.misses(facet.box)) continue;
     } else if (facet.rectangle == 0) {
@@ -313,13 +313,12 @@ std::uint32_t Intersector::shadow(const Segments& segments, std::uint32_t wanted
                                   std::size_t others, std::uint32_t own_wanted) {
   std::uint32_t shadow = 0;
   if (!features::kAims || aim.any_triangle) {
-    for (std::uint32_t left = wanted; left != 0; left &= left - 1) {
-      const std::uint32_t k = static_cast<std::uint32_t>(std::countr_zero(left));
-      if (blocked(segments.from, segments.ends[k], link, aim)) shadow |= std::uint32_t{1} << k;
-    }
+    for_each_bit(wanted, [&](std::uint32_t k, std::uint32_t bit) {
+      if (blocked(segments.from, segments.ends[k], link, aim)) shadow |= bit;
+    });
     return shadow;
   }
-  segments_[index(link.set)] += static_cast<std::uint32_t>(std::popcount(wanted));
+  segments_[index(link.set)] += count_bits(wanted);
   shadow = shadow_among(segments, wanted, link, aim.facets.first(others), aim);
   if ((own_wanted & ~shadow) == 0) return shadow;
   return shadow | shadow_among(segments, own_wanted & ~shadow, link, aim.facets.subspan(others), aim);

@@ -1,7 +1,6 @@
 #include "visibility/shadow.h"
 
-#include <bit>
-
+#include "base/bits.h"
 #include "visibility/triangle_test.h"
 
 namespace shodo {
@@ -101,13 +100,12 @@ std::uint32_t shadow_of(const Triangle& triangle, const Segments& segments, std:
   }
   if (open == 0) return wanted;
   std::uint32_t shadow = 0;
-  for (std::uint32_t left = wanted; left != 0; left &= left - 1) {
-    const std::uint32_t k = static_cast<std::uint32_t>(std::countr_zero(left));
+  for_each_bit(wanted, [&](std::uint32_t k, std::uint32_t bit) {
     const LatticePoint d = way(p, segments.ends[k]);
     std::uint32_t e = 0;
     while (e < open && along(edge[e], d) >= limit[e]) ++e;
-    if (e == open) shadow |= std::uint32_t{1} << k;
-  }
+    if (e == open) shadow |= bit;
+  });
   return shadow;
 }
 
@@ -145,24 +143,15 @@ std::uint32_t shadow_of_rectangle(const LatticeBox& box, const Segments& segment
   }
   if (count == 0 && all_beyond) return wanted;
   std::uint32_t shadow = 0;
-  for (std::uint32_t left = wanted; left != 0; left &= left - 1) {
-    const std::uint32_t k = static_cast<std::uint32_t>(std::countr_zero(left));
+  for_each_bit(wanted, [&](std::uint32_t k, std::uint32_t bit) {
     const LatticePoint& q = segments.ends[k];
     const std::int32_t w = up ? at(q, axis) - here : here - at(q, axis);
-    if (w <= part) continue;
+    if (w <= part) return;
     int e = 0;
     while (e < count && open[e].holds(w, product(part, at(q, of_axis[e]) - at(p, of_axis[e])))) ++e;
-    if (e == count) shadow |= std::uint32_t{1} << k;
-  }
+    if (e == count) shadow |= bit;
+  });
   return shadow;
-}
-
-template <class Visit>
-void for_each(std::uint32_t bits, Visit visit) {
-  std::uint32_t bit = 1;
-  for (std::uint32_t k = 0; bits != 0; ++k, bit <<= 1, bits >>= 1) {
-    if ((bits & 1) != 0) visit(k, bit);
-  }
 }
 
 /// So few ends are sooner asked one by one.
@@ -213,7 +202,7 @@ std::uint32_t shadow_of(const Facet& facet, std::span<const Triangle> triangles,
   if (are_few(wanted)) {
     if (facet.tilted == 0) {
       const Rectangle rectangle(facet.box, p);
-      for_each(wanted, [&](std::uint32_t k, std::uint32_t bit) {
+      for_each_bit(wanted, [&](std::uint32_t k, std::uint32_t bit) {
         if (rectangle.hides(segments.ends[k])) shadow |= bit;
       });
       if (facet.rectangle != 0) return shadow;
@@ -224,7 +213,7 @@ std::uint32_t shadow_of(const Facet& facet, std::span<const Triangle> triangles,
       if (wanted == shadow) break;
       const std::int64_t here = triangle.side(p);
       if (here == 0) continue;
-      for_each(wanted & ~shadow, [&](std::uint32_t k, std::uint32_t bit) {
+      for_each_bit(wanted & ~shadow, [&](std::uint32_t k, std::uint32_t bit) {
         const LatticePoint& q = segments.ends[k];
         const std::int64_t there = triangle.side(q);
         if (here > 0 ? there >= 0 : there <= 0) return;
