@@ -20,7 +20,7 @@ inline constexpr Hashes kHashes[] = {
     {"rules", 0x93531a6d034cebd3, 0x250d75e13c00b291},
     {"rule2+", 0x9fe96d5b24690786, 0xdce93435537fe323},
     {"blocks", 0xc1ed55ed74e9dd36, 0x937ba125e9fcc7a4},
-    {"planes", 0xd96e6fbf92b07399, 0xe5d734a65586821c},
+    {"planes", 0x3d41118a6a492842, 0x0705705b6ae7d01e},
     {"day", 0xae791216d5db4551, 0x4b9d56911116618e},
 };
 
