@@ -115,8 +115,8 @@ void MirrorLight::add_sample(const Receiver& receiver, const Sample& sample, con
   const Emitters& emitters = sources_->emitters();
   for (const Emitter& face : emitters.faces) {
     const Light& light = scene.lights[face.light];
-    const std::uint32_t first = face.is_area() ? face.first_end : face.first_end + 1;
-    const std::uint32_t count = face.is_area() ? kFewEnds : kFaceEnds - 1;
+    const std::uint32_t first = face.first_end;
+    const std::uint32_t count = face.is_area() ? kFewEnds : kFaceEnds;
     double shares = 0;
     for (std::uint32_t e = first; e < first + count; ++e) shares += emitters.ends[e].weight;
     for (std::uint32_t e = first; e < first + count && shares > 0; ++e) {
