@@ -25,7 +25,8 @@ std::uint64_t drawn_bytes(const Model& model) {
 /// What load() leaves, and what it takes meanwhile.
 void plan_scene(const Model& model, MemoryPlan& plan) {
   plan.add("the model", "its structure, and up to 7 for alignment", model.overhead, kAll);
-  plan.add("scene", "40 materials + 40 objects + 56 meshes + 24 vertices + 248 lights + 96 cameras + names",
+  plan.add("scene", "40 materials + 40 objects + 56 meshes + 24 vertices + 248 lights + 96 cameras + names; "
+           "textures: 4/3 of their texels",
            model.after_scene, kAll);
   plan.add("triangles that block", "72 triangles + 8 polygons + 4 meshes + 20 lights",
            model.after_geometry - model.after_scene, kAll);

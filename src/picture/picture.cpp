@@ -4,6 +4,7 @@
 #include "picture/display.h"
 #include "picture/shade.h"
 #include "picture/texels.h"
+#include "picture/textured.h"
 #include "picture/view.h"
 #include "picture/visible_lines.h"
 
@@ -51,6 +52,7 @@ struct Picture {
   SampleGrid grid;
   DisplayMaps maps;
   VisibleLines lines;
+  std::span<MeshTexture> textures;  // by mesh; empty in scenes without
   std::span<std::uint8_t> level;   // sRGB of display steps
   std::span<std::uint32_t> sums;   // [pixel * channels + channel]: display steps of a pixel's samples, if it has more
   std::span<std::uint8_t> rgb;
@@ -67,6 +69,7 @@ bool prepare(Picture& picture, const IlluminanceMaps& maps, const Options& optio
   if (!arena.take("display table", kWhite + 1, picture.level)) return false;
   if (!arena.take("line of samples", sums_of(picture.grid, options.width, scene.channels), picture.sums)) return false;
   if (!arena.take("line of pixels", std::size_t{3} * options.width, picture.rgb)) return false;
+  if (!find_mesh_textures(scene, arena, picture.textures)) return false;
   fill_display_table(picture.level);
   return picture.lines.start(scene, *picture.geometry, picture.grid, arena);
 }
@@ -100,7 +103,12 @@ struct MapSpan {
 
 void show_span(const Picture& picture, const MapSpan& span, std::uint32_t row, const SampleRow& samples) {
   const DrawnTriangle& carrier = picture.geometry->drawn[span.carrier];
-  const MapTexels texels = texels_of(picture, picture.scene->meshes[carrier.mesh]);
+  const Mesh& mesh = picture.scene->meshes[carrier.mesh];
+  const MapTexels texels = texels_of(picture, mesh);
+  if (!picture.textures.empty() && picture.textures[carrier.mesh].texture != kNone) {
+    return show_textured({*picture.scene, mesh, picture.textures[carrier.mesh], texels, *span.active, carrier,
+                          picture.grid, static_cast<std::int32_t>(row), span.x0, span.x1}, samples);
+  }
   MapWalk walk(*span.active, carrier, picture.grid, static_cast<std::int32_t>(row), span.x0, span.x1);
   for (MapPiece piece; walk.next(piece);) show_piece(texels, piece, samples);
 }
@@ -192,7 +200,8 @@ std::uint64_t picture_bytes(const Scene& scene, const Geometry& geometry, const 
   for (const Mesh& mesh : scene.meshes) filling = mesh.sub_patch_count() > filling ? mesh.sub_patch_count() : filling;
   const std::uint64_t sums = sums_of(grid, options.width, scene.channels);
   const std::uint64_t lines = rounded_up(kWhite + 1) + rounded_up(4 * sums) +
-                              rounded_up(3 * std::uint64_t{options.width}) + VisibleLines::bytes(scene, geometry, grid);
+                              rounded_up(3 * std::uint64_t{options.width}) + mesh_texture_bytes(scene) +
+                              VisibleLines::bytes(scene, geometry, grid);
   return rounded_up(2 * std::uint64_t{scene.sub_patch_count} * scene.channels) +
          (rounded_up(filling) > lines ? rounded_up(filling) : lines);
 }

@@ -26,12 +26,13 @@ bool SceneStore::take_blocks(Arena& arena) {
          take(arena, "meshes", counts_.meshes, scene_.meshes) &&
          take(arena, "vertices", counts_.vertices, scene_.vertices) &&
          take(arena, "lights", counts_.lights, scene_.lights) &&
-         take(arena, "cameras", counts_.cameras, scene_.cameras) && take(arena, "names", counts_.name_bytes, names_);
+         take(arena, "cameras", counts_.cameras, scene_.cameras) &&
+         take(arena, "textures", counts_.textures, scene_.textures) && take(arena, "names", counts_.name_bytes, names_);
 }
 
 bool SceneStore::begin_storing(Arena& arena, Status& status) {
   const Counts& c = counts_;
-  if (c.materials + c.objects + c.meshes + c.vertices + c.lights + c.cameras >= kNone) {
+  if (c.materials + c.objects + c.meshes + c.vertices + c.lights + c.cameras + c.textures >= kNone) {
     status.code = StatusCode::kScene;
     TextBuilder(status.message, sizeof status.message).add("expected fewer than 2^32 vertices, meshes and lights");
     return false;
@@ -39,6 +40,7 @@ bool SceneStore::begin_storing(Arena& arena, Status& status) {
   const std::size_t bytes = block_bytes<Material>(counts_.materials) + block_bytes<Object>(counts_.objects) +
                             block_bytes<Mesh>(counts_.meshes) + block_bytes<Vec3>(counts_.vertices) +
                             block_bytes<Light>(counts_.lights) + block_bytes<Camera>(counts_.cameras) +
+                            block_bytes<Texture>(counts_.textures) +
                             block_bytes<char>(counts_.name_bytes);
   // One block of everything first: if it is refused, the arena tells the size that would do.
   const Arena::Mark mark = arena.mark();

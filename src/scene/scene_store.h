@@ -2,8 +2,8 @@
 //
 // A scene file is read twice: the first time everything is only counted, then all blocks are taken at their exact
 // sizes, and the second time they are filled. So nothing is moved and nothing is left over. Bytes: 40 materials + 40
-// objects + 56 meshes + 24 vertices + 248 lights + 96 cameras + the names' lengths, each block rounded up to 8 (64-bit
-// pointers). Names are looked up in file order, in the second reading only.
+// objects + 56 meshes + 24 vertices + 248 lights + 96 cameras + 88 textures + the lengths of names and of textures'
+// paths, each block rounded up to 8 (64-bit pointers). Names are looked up in file order, in the second reading only.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,8 @@ namespace shodo {
 class SceneStore {
  public:
   struct Counts {
-    std::uint64_t materials = 0, objects = 0, meshes = 0, vertices = 0, lights = 0, cameras = 0, name_bytes = 0;
+    std::uint64_t materials = 0, objects = 0, meshes = 0, vertices = 0, lights = 0, cameras = 0, textures = 0;
+    std::uint64_t name_bytes = 0;
     bool operator==(const Counts&) const = default;
   };
 
@@ -44,6 +45,7 @@ class SceneStore {
   void add(const Vec3& vertex) { put(scene_.vertices, counts_.vertices, vertex); }
   void add(const Light& light) { put(scene_.lights, counts_.lights, light); }
   void add(const Camera& camera) { put(scene_.cameras, counts_.cameras, camera); }
+  void add(const Texture& texture) { put(scene_.textures, counts_.textures, texture); }
   /// A copy in the arena; while counting the name itself.
   std::string_view add_name(std::string_view name);
 

@@ -89,14 +89,41 @@ constexpr Key<Camera> kCameraKeys[] = {{"eye", kAlways, kAlways, read_eye},
 // 2^-40 of a radian moves a picture by less than 10^-8 of a pixel.
 constexpr double kParallel = 0x1p-40;
 
-bool read_diffuse(SceneReading& reading, Material& material) {
-  return read_grey_or_colour(reading.words, {"diffuse"}, {0, kLargestReflectance}, material.diffuse);
+/// A material with its texture, if it has one.
+struct Surface {
+  Material material;
+  Texture texture;
+  bool textured = false;
+};
+
+bool read_diffuse(SceneReading& reading, Surface& surface) {
+  return read_grey_or_colour(reading.words, {"diffuse"}, {0, kLargestReflectance}, surface.material.diffuse);
 }
 
-bool read_later(SceneReading& reading, Material&) { return not_supported_yet(reading, reading.key); }
+/// texture FILE [size W H]; the file itself is read when all meshes are known.
+bool read_texture(SceneReading& reading, Surface& surface) {
+  Words& words = reading.words;
+  if (!words.at_word()) return words.expected("the path of a picture");
+  const Token file = words.take();
+  if (reading.wanted.kind == Wanted::Kind::kTexture && reading.wanted.index == reading.store.counts().textures) {
+    words.place(file);
+    return false;
+  }
+  std::string_view path;
+  if (!words.resolve(file, path)) return false;
+  surface.texture.path = reading.store.add_name(path);
+  surface.textured = true;
+  if (!words.at_word() || words.peek().text != "size") return true;
+  words.take();
+  constexpr Interval kSizes{1e-6, 1e6};
+  return read_number(words, {"texture width, scene units"}, kSizes, surface.texture.size_u) &&
+         read_number(words, {"texture height, scene units"}, kSizes, surface.texture.size_v);
+}
 
-constexpr Key<Material> kMaterialKeys[] = {{"diffuse", kAlways, kAlways, read_diffuse},
-                                           {"texture", kAlways, 0, read_later},
+bool read_later(SceneReading& reading, Surface&) { return not_supported_yet(reading, reading.key); }
+
+constexpr Key<Surface> kMaterialKeys[] = {{"diffuse", kAlways, kAlways, read_diffuse},
+                                           {"texture", kAlways, 0, read_texture},
                                            {"reflect", kAlways, 0, read_later},
                                            {"transmit", kAlways, 0, read_later},
                                            {"highlight", kAlways, 0, read_later}};
@@ -210,14 +237,16 @@ bool read_include(SceneReading& reading) {
   return true;
 }
 
-/// material NAME diffuse RHO | R G B
+/// material NAME diffuse RHO | R G B [texture FILE [size W H]]
 bool read_material(SceneReading& reading) {
   Token name;
   if (!read_new_name(reading, "the name of a material", &SceneStore::find_material, name)) return false;
-  Material material;
-  if (!read_keys<Material>(reading, kMaterialKeys, kAlways, material)) return false;
-  material.name = reading.store.add_name(name.text);
-  reading.store.add(material);
+  Surface surface;
+  if (!read_keys<Surface>(reading, kMaterialKeys, kAlways, surface)) return false;
+  surface.material.name = reading.store.add_name(name.text);
+  surface.texture.material = static_cast<std::uint32_t>(reading.store.counts().materials);
+  reading.store.add(surface.material);
+  if (surface.textured) reading.store.add(surface.texture);
   return true;
 }
 

@@ -60,6 +60,7 @@ constexpr Case kCases[] = {
     {"rules", "tests/cli/scenes/shapes.scn", papers_rules, Scarce::kNever, false},
     {"rule2+", "tests/cli/scenes/box.scn", repeated_rule2, Scarce::kNever, false},
     {"blocks", "tests/cli/scenes/box.scn", blocks, Scarce::kIfFast, false},
+    {"textures", "tests/cli/scenes/textures.scn", small, Scarce::kNever, false},
     {"day", "data/day.scn", room, Scarce::kNever, false},
 };
 

@@ -10,6 +10,8 @@
 COMPILED_IN(file_box, "tests/cli/scenes/box.scn");
 COMPILED_IN(file_sun, "tests/cli/scenes/sun.scn");
 COMPILED_IN(file_shapes, "tests/cli/scenes/shapes.scn");
+COMPILED_IN(file_textures, "tests/cli/scenes/textures.scn");
+COMPILED_IN(file_tiles, "tests/cli/scenes/tiles.ppm");
 COMPILED_IN(file_day, "data/day.scn");
 COMPILED_IN(file_room, "data/room.scn");
 
@@ -27,6 +29,8 @@ constexpr File kFiles[] = {
     {"tests/cli/scenes/box.scn", file_box, file_box_end},
     {"tests/cli/scenes/sun.scn", file_sun, file_sun_end},
     {"tests/cli/scenes/shapes.scn", file_shapes, file_shapes_end},
+    {"tests/cli/scenes/textures.scn", file_textures, file_textures_end},
+    {"tiles.ppm", file_tiles, file_tiles_end},  // as textures.scn calls it
     {"data/day.scn", file_day, file_day_end},
     {"room.scn", file_room, file_room_end},  // as day.scn calls it
 };

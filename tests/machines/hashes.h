@@ -20,6 +20,7 @@ inline constexpr Hashes kHashes[] = {
     {"rules", 0x93531a6d034cebd3, 0xad1e3ee8deb68bb0},
     {"rule2+", 0x72b8f90567c946d6, 0x5ff5f74d3979ced5},
     {"blocks", 0xc1ed55ed74e9dd36, 0x41fbd32f8b017c31},
+    {"textures", 0x32f677bba978abff, 0xe903ee013f3ff48c},
     {"day", 0x5400ccb94ce11f23, 0xc9e04aa147b0992d},
 };
 

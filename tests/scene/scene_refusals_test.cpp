@@ -153,7 +153,6 @@ TEST(SceneRefusals, Materials) {
 }
 
 TEST(SceneRefusals, WhatIsStillToCome) {
-  expect_refused(after_start("material n diffuse 0.5 texture oak.ppm", 24, "'texture' is not supported yet"));
   expect_refused(after_start("material n diffuse 0.5 reflect 0.1", 24, "'reflect' is not supported yet"));
   expect_refused(after_start("material n diffuse 0.5 transmit 0.1", 24, "'transmit' is not supported yet"));
   expect_refused(after_start("material n diffuse 0.5 highlight 0.1 3", 24, "'highlight' is not supported yet"));
