@@ -5,6 +5,8 @@
 
 #include <cerrno>
 
+#include "cli/image_file.h"
+
 namespace shodo {
 
 namespace {
@@ -66,6 +68,10 @@ Reader SceneFiles::reader() {
 bool SceneFiles::read(const std::string& path, std::string_view& text, FileError& error) {
   std::string whole;
   if (const int reason = read_whole(path, whole); reason != 0) return error.set(path, reason);
+  if (is_image_name(path)) {
+    std::string ppm;
+    if (decode_image(whole, ppm)) whole = std::move(ppm);  // else the library says what it expects
+  }
   text = texts_.emplace_back(std::move(whole));
   return true;
 }

@@ -1,4 +1,4 @@
-// The scene's file and those that it names, read whole and kept until loading has returned.
+// The scene's file and those that it names, read whole and kept until loading has returned. Pictures become PPM.
 #pragma once
 
 #include <deque>

@@ -2,10 +2,10 @@
 // there.
 //
 // A side is crossed at x = ceil(m / |n.dx|), m = +-n.D linear in the row: quotient and remainder are stepped,
-// exactly, so that a line costs two additions and a look at a sign a side. Sides so flat that the quotient leaves 32 bits
-// are divided anew in each line. Inverse depth and map coordinates over depth are 64-bit fixed point, sums of three
-// quotients each rounded down: at most 1 + x + rows units below the truth. What would not fit is marked `wide` and
-// left to exact integers.
+// exactly, so that a line costs two additions and a look at a sign a side. Sides so flat that the quotient leaves 32
+// bits are divided anew in each line. Inverse depth and map coordinates over depth are 64-bit fixed point, sums of
+// three quotients each rounded down: at most 1 + x + rows units below the truth. What would not fit is marked `wide`
+// and left to exact integers.
 #pragma once
 
 #include <cstdint>

@@ -1,14 +1,12 @@
 #include "picture/display.h"
 
-#include "base/elementary.h"
+#include "base/srgb.h"
 #include "scene/mesh.h"
+#include "scene/texture.h"
 
 namespace shodo {
 
 namespace {
-
-/// The linear value in [0, 1] that sRGB shows as `s`.
-double linear_of_srgb(double s) { return s <= 0.04045 ? s / 12.92 : power((s + 0.055) / 1.055, 2.4); }
 
 /// What the maps of one mesh are made of.
 struct MeshLight {
@@ -16,6 +14,7 @@ struct MeshLight {
   const Mesh* mesh;
   const IlluminanceMaps* maps;
   double reflected[3];  // rho / pi
+  bool textured;        // then only what is reflected, above 0 cd/m2 (textured.h)
   double emitted[3];    // cd/m2, of a polyhedral light's faces
 
   bool hidden(std::uint32_t local) const {
@@ -26,12 +25,13 @@ struct MeshLight {
   std::uint16_t steps(std::uint32_t local, std::uint32_t c) const {
     const std::size_t at = (std::size_t{mesh->first_sub_patch} + local) * scene->channels + c;
     const double lx = static_cast<double>(maps->direct_lx[at]) + static_cast<double>(maps->ambient_lx[at]);
+    if (textured) return display_steps(reflected[c] * lx / (scene->display.max_cd_m2 - scene->display.min_cd_m2));
     return luminance_steps(scene->display, reflected[c] * lx + emitted[c]);
   }
 };
 
 MeshLight mesh_light(const Scene& scene, const Mesh& mesh, const IlluminanceMaps& maps) {
-  MeshLight light{&scene, &mesh, &maps, {}, {}};
+  MeshLight light{&scene, &mesh, &maps, {}, texture_of(scene, mesh) != kNone, {}};
   const std::uint32_t source = scene.objects[mesh.object].light;
   for (std::uint32_t c = 0; c < scene.channels; ++c) {
     light.reflected[c] = scene.materials[mesh.material].diffuse.c[c] / kPi;

@@ -5,6 +5,7 @@
 #include "picture/optics.h"
 #include "picture/shade.h"
 #include "picture/texels.h"
+#include "picture/textured.h"
 #include "picture/view.h"
 #include "picture/visible_lines.h"
 
@@ -56,6 +57,7 @@ struct Picture {
   Display display;                 // as the scene has it
   PictureOptics optics;
   Scene shown;                     // with optics: the scene on their display
+  std::span<MeshTexture> textures;  // by mesh; empty in scenes without
   std::span<std::uint8_t> level;   // sRGB of display steps
   std::span<std::uint32_t> sums;   // [pixel * channels + channel]: display steps of a pixel's samples, if it has more
   std::span<std::uint8_t> rgb;
@@ -73,6 +75,7 @@ bool prepare(Picture& picture, const IlluminanceMaps& maps, const Options& optio
   if (!arena.take("line of samples", sums_of(picture.grid, options.width, scene.channels, picture.with_optics),
                   picture.sums)) return false;
   if (!arena.take("line of pixels", std::size_t{3} * options.width, picture.rgb)) return false;
+  if (!find_mesh_textures(scene, arena, picture.textures)) return false;
   const Display& display = picture.display;
   fill_display_table(picture.level, picture.with_optics ? display.min_cd_m2 / display.max_cd_m2 : 0);
   if (!picture.lines.start(scene, *picture.geometry, picture.grid, arena)) return false;
@@ -109,7 +112,12 @@ struct MapSpan {
 
 void show_span(const Picture& picture, const MapSpan& span, std::uint32_t row, const SampleRow& samples) {
   const DrawnTriangle& carrier = picture.geometry->drawn[span.carrier];
-  const MapTexels texels = texels_of(picture, picture.scene->meshes[carrier.mesh]);
+  const Mesh& mesh = picture.scene->meshes[carrier.mesh];
+  const MapTexels texels = texels_of(picture, mesh);
+  if (!picture.textures.empty() && picture.textures[carrier.mesh].texture != kNone) {
+    return show_textured({*picture.scene, mesh, picture.textures[carrier.mesh], texels, *span.active, carrier,
+                          picture.grid, static_cast<std::int32_t>(row), span.x0, span.x1}, samples);
+  }
   MapWalk walk(*span.active, carrier, picture.grid, static_cast<std::int32_t>(row), span.x0, span.x1);
   for (MapPiece piece; walk.next(piece);) show_piece(texels, piece, samples);
 }
@@ -237,8 +245,8 @@ std::uint64_t picture_bytes(const Scene& scene, const Geometry& geometry, const 
   for (const Mesh& mesh : scene.meshes) filling = mesh.sub_patch_count() > filling ? mesh.sub_patch_count() : filling;
   const std::size_t sums = sums_of(grid, options.width, scene.channels, PictureOptics::used(scene));
   const std::uint64_t lines = rounded_up(kWhite + 1) + rounded_up(4 * std::uint64_t{sums}) +
-                              rounded_up(3 * std::uint64_t{options.width}) + VisibleLines::bytes(scene, geometry, grid) +
-                              PictureOptics::bytes(scene, geometry);
+                              rounded_up(3 * std::uint64_t{options.width}) + mesh_texture_bytes(scene) +
+                              VisibleLines::bytes(scene, geometry, grid) + PictureOptics::bytes(scene, geometry);
   return rounded_up(2 * std::uint64_t{scene.sub_patch_count} * scene.channels) +
          (rounded_up(filling) > lines ? rounded_up(filling) : lines);
 }

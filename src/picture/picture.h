@@ -30,7 +30,8 @@ Status draw_picture(const Scene& scene, const Geometry& geometry, const Illumina
 /// What draw_picture takes of the arena, exactly, each block rounded up to 8 bytes; 0 if there is no such camera.
 ///
 ///   2 sub_patches channels + max(sub-patches of the largest mesh,
-///   8193 + (4 channels + 3) width + 4 rows + 10 drawn + (sizeof(ActiveTriangle) + 16) active)
+///   8193 + (4 channels + 3) width + 4 rows + 10 drawn + (sizeof(ActiveTriangle) + 16) active +
+///   32 meshes if there are textures)
 ///
 /// rows: of samples. active: the most triangles that touch one of 128 bands of rows; one pass over all triangles
 /// finds it.

@@ -117,25 +117,7 @@ void add_samples(Ramp* ramp, const SampleRow& row, std::int32_t x, std::int32_t 
   }
 }
 
-/// One coordinate of a piece from cell to cell, between the centres of texels.
-struct Axis {
-  std::int32_t cell, part;          // part: 0 .. 65535 of the cell
-  std::int32_t step, mask, size;    // 16.16; mask turns the part round if the step is positive
-
-  Axis(std::int32_t start, std::int32_t step_of)
-      : cell((start - 2048) >> 12), part(((start - 2048) & 4095) << 4), step(step_of), mask(step_of > 0 ? 65535 : 0),
-        size(step_of < 0 ? -step_of : step_of) {}
-
-  /// Samples from here on in the same cell.
-  std::int32_t stay(std::int32_t most) const { return size == 0 ? most : (part ^ mask) / size + 1; }
-  void move(std::int32_t samples) {
-    const std::int32_t to = part + samples * step;
-    cell += to >> 16;
-    part = to & 65535;
-  }
-};
-
-Course course_of(const Axis& u, const Axis& v) {
+Course course_of(const PieceAxis& u, const PieceAxis& v) {
   const std::int32_t p = u.part - 32768, q = v.part - 32768;
   // The next sample is in the cell too, or nobody reads what is said of it.
   const std::uint32_t next = static_cast<std::uint32_t>(p + u.step) * static_cast<std::uint32_t>(q + v.step);
@@ -210,7 +192,7 @@ inline void show_in_cell(const Cell& cell, const Course& course, const SampleRow
 
 template <std::uint32_t kChannels>
 void show_cells(const MapTexels& map, const MapPiece& piece, const SampleRow& row) {
-  Axis u(piece.u, piece.du), v(piece.v, piece.dv);
+  PieceAxis u(piece.u, piece.du), v(piece.v, piece.dv);
   std::int32_t stay_u = u.stay(piece.length), stay_v = v.stay(piece.length);
   std::int32_t x = piece.x;
   for (const std::int32_t end = x + piece.length; x < end;) {
@@ -226,28 +208,31 @@ void show_cells(const MapTexels& map, const MapPiece& piece, const SampleRow& ro
   }
 }
 
-/// One lookup a sample, where texels are smaller than samples.
 template <std::uint32_t kChannels>
+void look_up(const MapTexels& map, const PieceAxis& u, const PieceAxis& v, std::uint32_t (&steps)[3]) {
+  const Cell cell = cell_at<kChannels>(map, u.cell, v.cell);
+  const std::int32_t p = u.part - 32768, q = v.part - 32768;
+  for (std::uint32_t c = 0; c < kChannels; ++c) {
+    Ramp ramp = ramp_at(Corners(cell, c), {p * 65536, q * 65536, p * q, 0, 0, 0, 0});
+    steps[c] = static_cast<std::uint32_t>(ramp.next());
+  }
+}
+
+/// One lookup a sample, where texels are smaller than samples.
 void show_each(const MapTexels& map, const MapPiece& piece, const SampleRow& row) {
-  Axis u(piece.u, piece.du), v(piece.v, piece.dv);
+  PieceLookup lookup(map, piece);
   for (std::int32_t x = piece.x; x < piece.x + piece.length; ++x) {
-    const Cell cell = cell_at<kChannels>(map, u.cell, v.cell);
-    const std::int32_t p = u.part - 32768, q = v.part - 32768;
     std::uint32_t steps[3];
-    for (std::uint32_t c = 0; c < kChannels; ++c) {
-      Ramp ramp = ramp_at(Corners(cell, c), {p * 65536, q * 65536, p * q, 0, 0, 0, 0});
-      steps[c] = static_cast<std::uint32_t>(at_most_white(ramp.next()));
-    }
+    lookup.next(steps);
+    for (std::uint32_t c = 0; c < map.channels; ++c) steps[c] = steps[c] < kWhite ? steps[c] : kWhite;
     show_plain(row, x, x + 1, steps);
-    u.move(1);
-    v.move(1);
   }
 }
 
 template <std::uint32_t kChannels>
 void show(const MapTexels& map, const MapPiece& piece, const SampleRow& row) {
   const auto slow = [](std::int32_t step) { return step <= kFastest && step >= -kFastest; };
-  slow(piece.du) && slow(piece.dv) ? show_cells<kChannels>(map, piece, row) : show_each<kChannels>(map, piece, row);
+  slow(piece.du) && slow(piece.dv) ? show_cells<kChannels>(map, piece, row) : show_each(map, piece, row);
 }
 
 }  // namespace
@@ -269,6 +254,12 @@ void show_plain(const SampleRow& row, std::int32_t x0, std::int32_t x1, const st
     std::uint32_t* const sum = row.sums + (static_cast<std::uint32_t>(x) >> row.shift) * channels;
     for (std::uint32_t c = 0; c < channels; ++c) sum[c] += steps[c];
   }
+}
+
+void PieceLookup::next(std::uint32_t (&steps)[3]) {
+  map_->channels == 1 ? look_up<1>(*map_, u_, v_, steps) : look_up<3>(*map_, u_, v_, steps);
+  u_.move(1);
+  v_.move(1);
 }
 
 void show_piece(const MapTexels& map, const MapPiece& piece, const SampleRow& row) {

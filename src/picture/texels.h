@@ -33,6 +33,36 @@ struct SampleRow {
   std::uint32_t channels = 1;
 };
 
+/// One coordinate of a piece from cell to cell, between the centres of texels.
+struct PieceAxis {
+  std::int32_t cell, part;          // part: 0 .. 65535 of the cell
+  std::int32_t step, mask, size;    // 16.16; mask turns the part round if the step is positive
+
+  PieceAxis(std::int32_t start, std::int32_t step_of)
+      : cell((start - 2048) >> 12), part(((start - 2048) & 4095) << 4), step(step_of), mask(step_of > 0 ? 65535 : 0),
+        size(step_of < 0 ? -step_of : step_of) {}
+
+  /// Samples from here on in the same cell.
+  std::int32_t stay(std::int32_t most) const { return size == 0 ? most : (part ^ mask) / size + 1; }
+  void move(std::int32_t samples) {
+    const std::int32_t to = part + samples * step;
+    cell += to >> 16;
+    part = to & 65535;
+  }
+};
+
+/// The samples of a piece one by one: display steps, beyond white too, by channel.
+class PieceLookup {
+ public:
+  PieceLookup(const MapTexels& map, const MapPiece& piece)
+      : map_(&map), u_(piece.u, piece.du), v_(piece.v, piece.dv) {}
+  void next(std::uint32_t (&steps)[3]);
+
+ private:
+  const MapTexels* map_;
+  PieceAxis u_, v_;
+};
+
 /// Samples x0 <= x < x1 show the same; `steps` by channel, at most white.
 void show_plain(const SampleRow& row, std::int32_t x0, std::int32_t x1, const std::uint32_t (&steps)[3]);
 

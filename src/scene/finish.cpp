@@ -104,6 +104,9 @@ void decide_channels(Scene& scene) {
   for (const Material& material : scene.materials) {
     if (!material.diffuse.grey()) scene.channels = 3;
   }
+  for (const Texture& texture : scene.textures) {
+    if (texture.channels != 1) scene.channels = 3;
+  }
   for (const Light& light : scene.lights) {
     if (!light.colour.grey()) scene.channels = 3;
   }

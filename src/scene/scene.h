@@ -120,6 +120,17 @@ struct Camera {
   double fov_degrees = 60;  // vertical angle
 };
 
+/// A material's pattern (scene/texture.h).
+struct Texture {
+  std::string_view path;               // relative to the top file's folder
+  std::uint32_t material = 0;
+  std::uint32_t width = 0, height = 0; // of the picture; 0 if no mesh has the material
+  std::uint32_t channels = 1;          // 1 if it is grey
+  double size_u = 0, size_v = 0;       // scene units it covers before it is repeated; 0: it covers each mesh once
+  double mean[3] = {0, 0, 0};          // linear, of 65535
+  std::span<const std::uint8_t> texels;  // 8-bit sRGB, all levels of detail
+};
+
 struct Display {
   double min_cd_m2 = 1;
   double max_cd_m2 = 250;
@@ -141,6 +152,8 @@ struct Scene {
   std::span<Plane> planes;
   std::span<Optics> optics;          // ascending material; mostly none
   std::span<Background> background;  // one or none
+  std::span<Texture> textures;              // of materials, in their order
+  std::span<std::uint16_t> texture_linear;  // of 256 levels of sRGB, 65535 is 1; empty without textures
   std::uint32_t patch_count = 0;
   std::uint32_t sub_patch_count = 0;
   std::uint32_t plane_sub_patch_count = 0;

@@ -7,6 +7,7 @@
 #include "scene/finish.h"
 #include "scene/scene_store.h"
 #include "scene/statements.h"
+#include "scene/texture.h"
 #include "scene/words.h"
 
 namespace shodo {
@@ -26,14 +27,18 @@ bool check_cameras(const Scene& scene, Status& status, Wanted& wanted) {
   return true;
 }
 
-bool finish(Scene& scene, const Options& options, Status& status, Wanted& wanted) {
+bool finish(Scene& scene, const Options& options, const Reader& reader, Arena& arena, Status& status,
+            Wanted& wanted) {
+  wanted.kind = Wanted::Kind::kTexture;
+  if (!load_textures(scene, reader, arena, status, wanted.index)) return false;
+  wanted = {};
   centre_scene(scene);
   place_lights(scene);
   decide_channels(scene);
   return check_cameras(scene, status, wanted) && decide_counts(scene, options, status, wanted);
 }
 
-bool load(Words& words, const Options& options, Arena& arena, Scene& scene, Status& status) {
+bool load(Words& words, const Options& options, const Reader& reader, Arena& arena, Scene& scene, Status& status) {
   SceneStore store(scene);
   SceneReading counting(words, store);
   if (!read_statements(counting)) return false;
@@ -42,7 +47,8 @@ bool load(Words& words, const Options& options, Arena& arena, Scene& scene, Stat
   if (!read_statements(storing)) return false;
   if (!store.complete()) return changed_while_reading(storing);
   Wanted wanted;
-  if (finish(scene, options, status, wanted)) return true;
+  if (finish(scene, options, reader, arena, status, wanted)) return true;
+  if (status.code == StatusCode::kMemory) return false;
   store.begin_counting();
   SceneReading searching(words, store);
   searching.wanted = wanted;
@@ -58,7 +64,7 @@ Status load_scene(std::string_view name, std::string_view text, const Reader& re
   const Arena::Mark mark = arena.mark();
   scene = {};
   Words words(name, text, reader, status);
-  if (load(words, options, arena, scene, status)) return status;
+  if (load(words, options, reader, arena, scene, status)) return status;
   scene = {};
   arena.release(mark);
   return status;

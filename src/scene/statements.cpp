@@ -110,6 +110,8 @@ constexpr double kParallel = 0x1p-40;
 struct MaterialWords {
   Material material;
   Optics optics;
+  Texture texture;
+  bool textured = false;
 };
 
 bool read_diffuse(SceneReading& reading) {
@@ -128,10 +130,29 @@ bool read_highlight(SceneReading& reading) {
   return read_highlight(reading.words, value_of<MaterialWords>(reading).optics);
 }
 
-bool read_later(SceneReading& reading) { return not_supported_yet(reading, reading.key); }
+/// texture FILE [size W H]; the file itself is read when all meshes are known.
+bool read_texture(SceneReading& reading) {
+  Words& words = reading.words;
+  MaterialWords& material = value_of<MaterialWords>(reading);
+  if (!words.at_word()) return words.expected("the path of a picture");
+  const Token file = words.take();
+  if (reading.wanted.kind == Wanted::Kind::kTexture && reading.wanted.index == reading.store.counts().textures) {
+    words.place(file);
+    return false;
+  }
+  std::string_view path;
+  if (!words.resolve(file, path)) return false;
+  material.texture.path = reading.store.add_name(path);
+  material.textured = true;
+  if (!words.at_word() || words.peek().text != "size") return true;
+  words.take();
+  constexpr Interval kSizes{1e-6, 1e6};
+  return read_number(words, {"texture width, scene units"}, kSizes, material.texture.size_u) &&
+         read_number(words, {"texture height, scene units"}, kSizes, material.texture.size_v);
+}
 
 constexpr Key kMaterialKeys[] = {{"diffuse", kAlways, kAlways, read_diffuse},
-                                 {"texture", kAlways, 0, read_later},
+                                 {"texture", kAlways, 0, read_texture},
                                  {"reflect", kAlways, 0, read_reflect},
                                  {"transmit", kAlways, 0, read_transmit},
                                  {"highlight", kAlways, 0, read_highlight}};
@@ -282,10 +303,11 @@ bool read_material(SceneReading& reading) {
   MaterialWords words;
   if (!read_keys(reading, kMaterialKeys, kAlways, &words)) return false;
   if (!keep_energy(reading, name, words.material, words.optics)) return false;
-  words.optics.material = static_cast<std::uint32_t>(reading.store.counts().materials);
+  words.optics.material = words.texture.material = static_cast<std::uint32_t>(reading.store.counts().materials);
   words.material.name = reading.store.add_name(name.text);
   reading.store.add(words.material);
   if (does_anything(words.optics)) reading.store.add(words.optics);
+  if (words.textured) reading.store.add(words.texture);
   return true;
 }
 

@@ -16,7 +16,7 @@ namespace shodo {
 
 /// Something whose place in the file is asked for afterwards: a mistake that shows only when the whole scene is known.
 struct Wanted {
-  enum class Kind : std::uint8_t { kNothing, kMesh, kCamera, kPlane };
+  enum class Kind : std::uint8_t { kNothing, kMesh, kCamera, kPlane, kTexture };
   Kind kind = Kind::kNothing;
   std::uint32_t index = 0;
 };

@@ -75,15 +75,20 @@ bool Words::open(std::string_view path, std::string_view text) {
   return true;
 }
 
-
-bool Words::enter(const Token& path) {
-  if (depth_ == kMaxIncludeDepth) return expected(path, "at most 8 files within each other");
-  if (includes_ == kMaxIncludes) return expected(path, "at most 1000 includes in all");
+bool Words::resolve(const Token& path, std::string_view& resolved) {
   std::size_t size = 0;
   const std::span<char> free = std::span(paths_).subspan(paths_used_);
   const PathProblem problem = resolve_include(files_[depth_].path, path.text, free, size);
   if (problem != PathProblem::kNone) return expected(path, problem_text(problem));
-  const std::string_view resolved(free.data(), size);
+  resolved = {free.data(), size};
+  return true;
+}
+
+bool Words::enter(const Token& path) {
+  if (depth_ == kMaxIncludeDepth) return expected(path, "at most 8 files within each other");
+  if (includes_ == kMaxIncludes) return expected(path, "at most 1000 includes in all");
+  std::string_view resolved;
+  if (!resolve(path, resolved)) return false;
   for (std::uint32_t k = 0; k <= depth_; ++k) {
     if (files_[k].path == resolved) return expected(path, "a file that isn't being read already");
   }
@@ -96,7 +101,7 @@ bool Words::enter(const Token& path) {
   }
   ++includes_;
   ++depth_;
-  paths_used_ += size;
+  paths_used_ += resolved.size();
   return open(resolved, text);
 }
 

@@ -37,6 +37,8 @@ class Words {
 
   /// Goes on with the file that `path` names; the current token must be the end of the statement.
   [[nodiscard]] bool enter(const Token& path);
+  /// The file that `path` names, relative to the top file's folder; stands until the next call.
+  [[nodiscard]] bool resolve(const Token& path, std::string_view& resolved);
   /// Back to the including file; only at the end of an included one.
   void leave();
   bool included() const { return depth_ > 0; }

@@ -61,6 +61,7 @@ constexpr Case kCases[] = {
     {"rule2+", "tests/cli/scenes/box.scn", repeated_rule2, Scarce::kNever, false, false},
     {"blocks", "tests/cli/scenes/box.scn", blocks, Scarce::kIfFast, false, false},
     {"planes", "tests/cli/scenes/planes.scn", small, Scarce::kIfFast, false, true},
+    {"textures", "tests/cli/scenes/textures.scn", small, Scarce::kNever, false, false},
     {"day", "data/day.scn", room, Scarce::kNever, false, false},
 };
 

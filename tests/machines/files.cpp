@@ -11,6 +11,8 @@ COMPILED_IN(file_box, "tests/cli/scenes/box.scn");
 COMPILED_IN(file_sun, "tests/cli/scenes/sun.scn");
 COMPILED_IN(file_shapes, "tests/cli/scenes/shapes.scn");
 COMPILED_IN(file_planes, "tests/cli/scenes/planes.scn");
+COMPILED_IN(file_textures, "tests/cli/scenes/textures.scn");
+COMPILED_IN(file_tiles, "tests/cli/scenes/tiles.ppm");
 COMPILED_IN(file_day, "data/day.scn");
 COMPILED_IN(file_room, "data/room.scn");
 
@@ -29,6 +31,8 @@ constexpr File kFiles[] = {
     {"tests/cli/scenes/sun.scn", file_sun, file_sun_end},
     {"tests/cli/scenes/shapes.scn", file_shapes, file_shapes_end},
     {"tests/cli/scenes/planes.scn", file_planes, file_planes_end},
+    {"tests/cli/scenes/textures.scn", file_textures, file_textures_end},
+    {"tiles.ppm", file_tiles, file_tiles_end},  // as textures.scn calls it
     {"data/day.scn", file_day, file_day_end},
     {"room.scn", file_room, file_room_end},  // as day.scn calls it
 };

@@ -21,6 +21,7 @@ inline constexpr Hashes kHashes[] = {
     {"rule2+", 0x9fe96d5b24690786, 0xdce93435537fe323},
     {"blocks", 0xc1ed55ed74e9dd36, 0x937ba125e9fcc7a4},
     {"planes", 0x3d41118a6a492842, 0x0705705b6ae7d01e},
+    {"textures", 0x32f677bba978abff, 0xe903ee013f3ff48c},
     {"day", 0xae791216d5db4551, 0x4b9d56911116618e},
 };
 

@@ -154,7 +154,6 @@ TEST(SceneRefusals, Materials) {
 }
 
 TEST(SceneRefusals, WhatIsStillToCome) {
-  expect_refused(after_start("material n diffuse 0.5 texture oak.ppm", 24, "'texture' is not supported yet"));
   expect_refused(after_start("obj chair.obj", 1, "'obj' is not supported yet"));
   expect_refused(
       after_start("light l point at 0 0 0 towards 0 -1 0 ies a.ies turn 90", 39, "'ies' is not supported yet"));

@@ -1,0 +1,272 @@
+// Textured surfaces against a slow twin: exact rays and map coordinates, the filter's formulas in doubles.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "model.h"
+#include "picture/display.h"
+#include "picture/picture.h"
+#include "picture/textured.h"
+#include "picture/view.h"
+#include "support/files.h"
+#include "support/picture_twin.h"
+#include "support/scene_from_text.h"
+
+namespace shodo {
+namespace {
+
+/// A scene with maps that vary, and its picture.
+struct TexturedScene {
+  TexturedScene(const std::string& text, const TestFiles& files, Options of) : loaded(text, of, files), options(of) {
+    EXPECT_TRUE(place_scene(loaded.scene, loaded.arena, geometry).done());
+    direct.resize(std::size_t{loaded.scene.sub_patch_count} * loaded.scene.channels);
+    ambient.resize(direct.size());
+    // Smooth: 300 to 500 lx, so that a picture's levels come from the texture mostly.
+    for (std::size_t k = 0; k < direct.size(); ++k) {
+      direct[k] = static_cast<float>(400 + 100 * std::sin(0.4 * static_cast<double>(k / loaded.scene.channels)));
+    }
+    maps.direct_lx = direct;
+    maps.ambient_lx = ambient;
+  }
+
+  std::vector<std::uint8_t> draw() {
+    std::vector<std::uint8_t> rgb;
+    const LineSink sink{[](void* context, std::uint32_t, std::span<const std::uint8_t> line) {
+                          auto& all = *static_cast<std::vector<std::uint8_t>*>(context);
+                          all.insert(all.end(), line.begin(), line.end());
+                          return true;
+                        },
+                        &rgb};
+    const std::uint64_t bytes = picture_bytes(loaded.scene, geometry, options);
+    const Arena::Mark before = loaded.arena.mark();
+    EXPECT_TRUE(draw_picture(loaded.scene, geometry, maps, options, {}, loaded.arena, sink).done());
+    EXPECT_EQ(loaded.arena.mark(), before);
+    EXPECT_GT(bytes, 0u);
+    return rgb;
+  }
+
+  LoadedScene loaded;
+  Options options;
+  Geometry geometry;
+  std::vector<float> direct, ambient;
+  IlluminanceMaps maps;
+};
+
+/// What the design says a textured sample shows, in doubles.
+class TextureTwin {
+ public:
+  TextureTwin(TexturedScene& scene, const SampleGrid& grid)
+      : scene_(scene.loaded.scene), geometry_(scene.geometry), twin_(scene_, geometry_, grid), level_(kWhite + 1),
+        memory_(std::size_t{1} << 22), arena_(memory_.data(), memory_.size() * 8) {
+    EXPECT_TRUE(build_display_maps(scene_, scene.maps, arena_, maps_));
+    fill_display_table(level_);
+  }
+
+  /// The level that a sample shows in a channel.
+  int level(std::int64_t x, std::int64_t y, std::uint32_t c) const {
+    const TwinHit hit = twin_.hit(x, y);
+    if (hit.triangle == kNone || !hit.front) return 0;
+    const DrawnTriangle& drawn = geometry_.drawn[hit.triangle];
+    const Mesh& mesh = scene_.meshes[drawn.mesh];
+    const auto at = twin_.map_point(hit.triangle, x, y);
+    double steps = light(mesh, static_cast<double>(at[0]), static_cast<double>(at[1]), c);
+    const std::uint32_t which = texture_of(scene_, mesh);
+    if (which != kNone) {
+      const Texture& texture = scene_.textures[which];
+      const Repeats repeats = texture_repeats(scene_, mesh, texture);
+      const auto texel = [&](const std::array<long double, 2>& p) {
+        return std::array<long double, 2>{p[0] * repeats.u / mesh.map_width() * texture.width,
+                                          (1 - p[1] * repeats.v / mesh.map_height()) * texture.height};
+      };
+      // Slopes at the sample by central differences over a hundredth of its neighbours' distance would need directions
+      // between samples: the coordinates are quotients of linear functions, so three samples a side give them exactly.
+      const auto slope = [&](std::int64_t dx, std::int64_t dy, std::size_t k) {
+        const long double here = texel(at)[k], next = texel(twin_.map_point(hit.triangle, x + dx, y + dy))[k],
+                          before = texel(twin_.map_point(hit.triangle, x - dx, y - dy))[k];
+        // u(x) = (a + b x) / (1 + d x): u(1) - u(-1) and u(1) + u(-1) - 2 u(0) give the derivative b - a d.
+        const long double n = next - here, p = here - before;
+        return static_cast<double>(std::fabs(n + p == 0 ? 0 : 2 * n * p / (n + p)));
+      };
+      const double step = std::max({slope(1, 0, 0), slope(1, 0, 1), slope(0, 1, 0), slope(0, 1, 1)});
+      const double value = filtered(texture, texture.size_u != 0, static_cast<double>(texel(at)[0]),
+                                    static_cast<double>(texel(at)[1]), step, c);
+      const Display& display = scene_.display;
+      steps = steps * value / texture.mean[c] - kWhite * display.min_cd_m2 / (display.max_cd_m2 - display.min_cd_m2);
+    }
+    return level_[static_cast<std::size_t>(std::lround(std::clamp(steps, 0.0, double{kWhite})))];
+  }
+
+ private:
+  double light(const Mesh& mesh, double u, double v, std::uint32_t c) const {
+    const std::int64_t width = mesh.map_width(), height = mesh.map_height();
+    return bilinear(u, v, [&](std::int64_t x, std::int64_t y) {
+      x = std::clamp<std::int64_t>(x, 0, width - 1);
+      y = std::clamp<std::int64_t>(y, 0, height - 1);
+      const std::size_t at = mesh.first_sub_patch + static_cast<std::size_t>(y * width + x);
+      return double{1} * maps_.texel[at * scene_.channels + c];
+    });
+  }
+
+  template <class At>
+  static double bilinear(double u, double v, const At& at) {
+    const double x = std::floor(u - 0.5), y = std::floor(v - 0.5), s = u - 0.5 - x, t = v - 0.5 - y;
+    const std::int64_t i = static_cast<std::int64_t>(x), j = static_cast<std::int64_t>(y);
+    return (1 - t) * ((1 - s) * at(i, j) + s * at(i + 1, j)) + t * ((1 - s) * at(i, j + 1) + s * at(i + 1, j + 1));
+  }
+
+  static double linear(std::uint8_t level) {
+    const double s = level / 255.0;
+    return 65535 * (s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
+  }
+
+  static double filtered(const Texture& texture, bool repeats, double s, double t, double step, std::uint32_t c) {
+    std::uint32_t level = 0;
+    while (step >= std::exp2(level + 1)) ++level;
+    const double weight = step <= 1 ? 0 : step / std::exp2(level) - 1;
+    const auto value = [&](std::uint32_t of) {
+      const TextureLevel l = texture_level(texture, of);
+      const std::int64_t w = l.width, h = l.height;
+      const auto kept = [&](std::int64_t k, std::int64_t n) {
+        return repeats ? (k % n + n) % n : std::clamp<std::int64_t>(k, 0, n - 1);
+      };
+      return bilinear(s * l.width / texture.width, t * l.height / texture.height, [&](std::int64_t x, std::int64_t y) {
+        const std::size_t at = static_cast<std::size_t>(kept(y, h) * w + kept(x, w));
+        return linear(l.texel[at * texture.channels + (texture.channels == 1 ? 0 : c)]);
+      });
+    };
+    return (1 - weight) * value(level) + weight * value(level + 1);
+  }
+
+  const Scene& scene_;
+  const Geometry& geometry_;
+  PictureTwin twin_;
+  std::vector<std::uint8_t> level_;
+  std::vector<std::uint64_t> memory_;
+  Arena arena_;
+  DisplayMaps maps_;
+};
+
+void expect_twin(TexturedScene& scene) {
+  const Options& options = scene.options;
+  const SampleGrid grid = sample_grid(
+      view_of(scene.loaded.scene.cameras[0], scene.geometry.lattice, options.width, options.height), options.width,
+      options.height, 1);
+  const std::vector<std::uint8_t> rgb = scene.draw();
+  const TextureTwin twin(scene, grid);
+  std::uint64_t none = 0, one = 0, more = 0;
+  for (std::uint32_t y = 0; y < options.height; ++y) {
+    for (std::uint32_t x = 0; x < options.width; ++x) {
+      for (std::uint32_t c = 0; c < scene.loaded.scene.channels; ++c) {
+        const int off = std::abs(twin.level(x, y, c) - rgb[(std::size_t{y} * options.width + x) * 3 + c]);
+        ++(off == 0 ? none : off == 1 ? one : more);
+      }
+    }
+  }
+  EXPECT_LT(more * 1000, none + one + more) << none << ' ' << one << ' ' << more;
+  EXPECT_LT(one * 5, none) << one;
+}
+
+Options plain_options() {
+  Options options;
+  options.width = 200;
+  options.height = 160;
+  options.antialias = 1;
+  return options;
+}
+
+TEST(Textured, SurfacesAreTheTwinsToOneLevelAtNineHundredAndNinetyNineOfAThousandPixels) {
+  FolderReader folder(source_folder() + "/tests/cli/scenes");
+  std::string_view scene, tiles;
+  ASSERT_TRUE(folder.read("textures.scn", scene));
+  ASSERT_TRUE(folder.read("tiles.ppm", tiles));
+  TexturedScene textured{std::string(scene), {{"tiles.ppm", std::string(tiles)}}, plain_options()};
+  expect_twin(textured);
+}
+
+std::string checks(std::uint32_t size) {
+  std::string text = "P5 " + std::to_string(size) + " " + std::to_string(size) + " 255\n";
+  for (std::uint32_t y = 0; y < size; ++y) {
+    for (std::uint32_t x = 0; x < size; ++x) text += (2 * x / size + 2 * y / size) % 2 == 0 ? '\xd0' : '\x20';
+  }
+  return text;
+}
+
+const char* const kPlain =
+    "shodo 1\ndisplay 0 250\nmaterial m diffuse 0.4 texture c.pgm size 0.5 0.5\nobject o\n"
+    "quad m -400 0 -400  -400 0 400  400 0 400  400 0 -400  patches 16 16 sub 1 1\n";
+
+// Up to the horizon, 1,600 repeats away.
+TEST(Textured, PlainsAreTheTwinsUpToTheHorizon) {
+  TexturedScene plain(std::string(kPlain) + "camera a eye 0 1.5 0 look 5 0.9 3 up 0 1 0 fov 65\n",
+                      {{"c.pgm", checks(16)}}, plain_options());
+  expect_twin(plain);
+}
+
+// Far away a texture is its mean: neither pixels nor pictures from eyes that are a little apart differ more than light
+// does, whereas near by black and white stand side by side.
+TEST(Textured, NothingShimmersAtADistance) {
+  std::vector<std::uint8_t> first;
+  for (const char* const eye : {"0", "0.11", "0.23"}) {
+    TexturedScene plain(std::string(kPlain) + "camera a eye " + eye + " 1.5 0 look 400 -30 40 up 0 1 0 fov 40\n",
+                        {{"c.pgm", checks(16)}}, plain_options());
+    std::fill(plain.direct.begin(), plain.direct.end(), 400.0f);
+    const std::vector<std::uint8_t> rgb = plain.draw();
+    const auto row = [&](std::uint32_t y) {
+      const auto* const begin = &rgb[std::size_t{y} * 600];
+      const auto [low, high] = std::minmax_element(begin, begin + 600);
+      return *high - *low;
+    };
+    std::uint32_t horizon = 0;
+    while (rgb[std::size_t{horizon} * 600 + 300] == 0) ++horizon;
+    for (std::uint32_t y = horizon + 2; y < horizon + 8; ++y) EXPECT_LE(row(y), 1) << y;
+    EXPECT_GT(row(159), 100);
+    if (first.empty()) first = rgb;
+    for (std::size_t k = (horizon + 2) * 600u; k < (horizon + 8) * 600u; ++k) EXPECT_NEAR(rgb[k], first[k], 1);
+  }
+}
+
+// A texture of one colour multiplies by 1, whatever MIN is.
+TEST(Textured, OneColourShowsWhatNoTextureShows) {
+  for (const char* const display : {"display 0 200\n", "display 20 200\n"}) {
+    const std::string rest = std::string(display) +
+                             "object o\nquad m 0 0 0  3 0 0  3 2 0  0 2 0 patches 4 4 sub 2 2\n"
+                             "camera a eye 1.5 1 2 look 1.5 1 0 up 0 1 0 fov 60\n";
+    TexturedScene with("shodo 1\nmaterial m diffuse 0.6 0.5 0.4 texture c.ppm\n" + rest,
+                       {{"c.ppm", "P6 2 1 255\nabcabc"}}, plain_options());
+    TexturedScene without("shodo 1\nmaterial m diffuse 0.6 0.5 0.4\n" + rest, {}, plain_options());
+    const std::vector<std::uint8_t> a = with.draw(), b = without.draw();
+    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], 1);
+  }
+}
+
+// A sign's left and right border, upper and lower one are of different colours: none looks round the corner.
+TEST(Textured, WithoutASizeASurfaceShowsItsTextureOnceAndUpright) {
+  const std::string sign = "P5 2 2 255\n\x10\x60\xa0\xe0";
+  TexturedScene scene(
+      "shodo 1\ndisplay 0 400\nmaterial m diffuse 0.3 texture s.pgm\nobject o\n"
+      "quad m 0 0 0  3 0 0  3 2 0  0 2 0 patches 1 1 sub 1 1\ncamera a eye 1.5 1 2 look 1.5 1 0 up 0 1 0 fov 53\n",
+      {{"s.pgm", sign}}, plain_options());
+  const std::vector<std::uint8_t> rgb = scene.draw();
+  std::uint32_t top = 0, left = 0;
+  while (rgb[(top * 200 + 100) * 3] == 0) ++top;
+  while (rgb[(80 * 200 + left) * 3] == 0) ++left;
+  const auto at = [&](std::uint32_t x, std::uint32_t y) { return rgb[(std::size_t{y} * 200 + x) * 3]; };
+  const std::uint8_t corner[4] = {at(left, top), at(199 - left, top), at(left, 159 - top), at(199 - left, 159 - top)};
+  for (int k = 1; k < 4; ++k) EXPECT_GT(corner[k], corner[k - 1] + 20);
+  for (std::uint32_t d = 1; d < 20; ++d) {
+    EXPECT_EQ(at(left + d, top + d), corner[0]);
+    EXPECT_EQ(at(199 - left - d, 159 - top - d), corner[3]);
+  }
+}
+
+TEST(Textured, ScenesWithoutTexturesTakeNoBytesForThem) {
+  const LoadedScene plain("shodo 1\nmaterial m diffuse 0.5\nobject o\nquad m 0 0 0  0 0 1  1 0 1  1 0 0\n");
+  EXPECT_EQ(mesh_texture_bytes(plain.scene), 0u);
+  EXPECT_TRUE(plain.scene.texture_linear.empty());
+}
+
+}  // namespace
+}  // namespace shodo
