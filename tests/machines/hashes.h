@@ -14,15 +14,15 @@ struct Hashes {
 };
 
 inline constexpr Hashes kHashes[] = {
-    {"box", 0x7d0370b599003cc3, 0xa9a5b49974afe280},
+    {"box", 0xd1ce5376a206fe49, 0x6f39f1d73d03a684},
     {"sun", 0x9e54c6cd4147ac22, 0x6973181985d668a5},
-    {"shapes", 0xf7fbc8b10b47155f, 0xdc78574ecb08cedd},
-    {"rules", 0x93531a6d034cebd3, 0x250d75e13c00b291},
-    {"rule2+", 0x9fe96d5b24690786, 0xdce93435537fe323},
-    {"blocks", 0xc1ed55ed74e9dd36, 0x937ba125e9fcc7a4},
+    {"shapes", 0xbe974c307329fb4f, 0x6bae46df3570df52},
+    {"rules", 0x6273541003762f78, 0xd3c6e30876d572e4},
+    {"rule2+", 0x81936dfec66a794b, 0x30775391f7383ca3},
+    {"blocks", 0x5893e099251dbb4a, 0x36c68ca7622121c4},
     {"planes", 0x3d41118a6a492842, 0x0705705b6ae7d01e},
     {"textures", 0x32f677bba978abff, 0xe903ee013f3ff48c},
-    {"day", 0xae791216d5db4551, 0x4b9d56911116618e},
+    {"day", 0xdad13cb4bf5236a9, 0xc93fbed20444a7d0},
 };
 
 }  // namespace machines
