@@ -37,14 +37,15 @@ class Sums {
 };
 
 std::string line(const char* kind, std::string_view name, const IlluminanceStatistics& s) {
-  std::string text = kind + ("," + std::string(name));
+  std::string text = kind;
+  text.append(1, ',').append(name);
   for (const double value :
        {s.area, s.hidden_area, s.mean, s.least, s.greatest, s.overall_uniformity(), s.diversity()}) {
     char number[32];
     std::snprintf(number, sizeof number, ",%.9g", value);
     text += number;
   }
-  return text + "\n";
+  return text.append(1, '\n');
 }
 
 }  // namespace
