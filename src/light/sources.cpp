@@ -137,11 +137,11 @@ Sources::EmitterCount Sources::count_emitters(const Scene& scene) {
 }
 
 std::uint64_t Sources::bytes(const Scene& scene) {
-  static_assert(sizeof(Source) % 8 == 0 && sizeof(Emitter) % 8 == 0 && sizeof(EmitterEnd) % 8 == 0);
+  const auto block = [](std::uint64_t size, std::uint64_t count) { return (size * count + 7) / 8 * 8; };
   const EmitterCount total = count_emitters(scene);
   const std::uint64_t ends = total.ends;
-  return sizeof(Source) * scene.lights.size() + sizeof(Emitter) * std::uint64_t{total.faces} +
-         sizeof(EmitterEnd) * ends + (sizeof(LatticePoint) * ends + 7) / 8 * 8 +
+  return block(sizeof(Source), scene.lights.size()) + block(sizeof(Emitter), total.faces) +
+         block(sizeof(EmitterEnd), ends) + block(sizeof(LatticePoint), ends) +
          PatchAims::bytes(static_cast<std::uint32_t>(scene.lights.size()));
 }
 
