@@ -88,9 +88,9 @@ bool PictureOptics::start(const Scene& scene, const Geometry& geometry, const Di
 
 std::uint64_t PictureOptics::bytes(const Scene& scene, const Geometry& geometry) {
   if (!used(scene)) return 0;
-  static_assert(sizeof(Parts) % 8 == 0 && sizeof(Path) % 8 == 0);
-  return RayTree::bytes(geometry.drawn.size()) + sizeof(Parts) * scene.optics.size() +
-         (4 * std::uint64_t{scene.lights.size()} * scene.channels + 7) / 8 * 8 + sizeof(Path) * kMostWaiting +
+  const auto block = [](std::uint64_t bytes) { return (bytes + 7) / 8 * 8; };
+  return RayTree::bytes(geometry.drawn.size()) + block(sizeof(Parts) * scene.optics.size()) +
+         block(4 * std::uint64_t{scene.lights.size()} * scene.channels) + block(sizeof(Path) * kMostWaiting) +
          Highlights::bytes(scene);
 }
 
