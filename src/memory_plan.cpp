@@ -152,7 +152,7 @@ std::uint64_t MemoryPlan::peak() const {
 
 std::uint64_t maps_bytes(const Model& model, SurfacesKeep keep) {
   const std::uint64_t spread = map_bytes(model.scene, model.options);
-  if (!model.options.gathers()) return spread;
+  if (!features::gathers(model.options)) return spread;
   return larger(spread,
                 map_value_bytes(model.scene) + gather_bytes(model.scene, model.geometry, model.options, keep));
 }

@@ -54,6 +54,7 @@ const char* part_left_out(const Options& options) {
   const Rules& rules = options.rules;
   if (!features::kBlocks && rules.blocks) return "blocks";
   if (!features::kRules && (rules.rule1 || rules.rule2 || rules.rule2_repeated || rules.rule3)) return "rules";
+  if (!features::kGather && options.gather) return "gathering";
   if (!features::kAims && options.flags == FlagMode::kScene) return "flags that a scene gives";
   return nullptr;
 }
@@ -293,7 +294,7 @@ Status solve_maps(Model& model, const Progress& progress) {
   if (!progress.go_on(Stage::kMap, 0, 1)) return interrupted();
   status = map_illuminance(model.scene, model.patches, model.direct, model.ambient, model.options, model.arena,
                            model.maps);
-  if (status.done() && model.options.gathers()) {
+  if (status.done() && features::gathers(model.options)) {
     status = gather_illuminance(model.scene, model.geometry, model.patches, model.direct, model.ambient,
                                 model.intersector, model.options, progress, model.arena, model.maps.ambient_lx,
                                 model.statistics);

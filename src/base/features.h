@@ -8,6 +8,7 @@
 //     RULES       the paper's rules 1, 2, 2+ and 3                                options are refused
 //     AIMS        the search for what can stand between: every segment tries      flags of a scene (FlagMode::kScene)
 //                 every triangle, as with flags off, to the same bits             are refused
+//     GATHER      ambient light gathered by sub-patches (Options::gather)          the option is refused
 //     MESHES      triangles, grids, quads that are not convex                     the statements are refused
 //     INCLUDES    `include` in a scene                                            the statement is refused
 //     MESSAGES    texts: a Status has code, file, line, column, bytes_needed, and as its message the word it is about
@@ -36,6 +37,11 @@ inline constexpr bool kAims = false;
 #else
 inline constexpr bool kAims = true;
 #endif
+#ifdef SHODO_WITHOUT_GATHER
+inline constexpr bool kGather = false;
+#else
+inline constexpr bool kGather = true;
+#endif
 #ifdef SHODO_WITHOUT_MESHES
 inline constexpr bool kMeshes = false;
 #else
@@ -61,12 +67,13 @@ inline constexpr bool kSmallCode = false;
 #endif
 
 /// Nothing is left out.
-inline constexpr bool kFull = kBlocks && kRules && kAims && kMeshes && kIncludes && kMessages;
+inline constexpr bool kFull = kBlocks && kRules && kAims && kGather && kMeshes && kIncludes && kMessages;
 
 /// Nodes that hold others.
 inline constexpr bool kTrees = kBlocks || kRules;
 
 constexpr bool blocks(const Rules& rules) { return kBlocks && rules.blocks; }
+constexpr bool gathers(const Options& options) { return kGather && options.gathers(); }
 /// Flags off.
 constexpr bool aims(FlagMode mode) { return kAims && mode != FlagMode::kOff; }
 

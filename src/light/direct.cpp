@@ -6,6 +6,7 @@
 // ambient stage wants the patches only, so sub-patches lie in spare blocks; if it takes those they are lit once more.
 #include "light/direct.h"
 
+#include "base/features.h"
 #include "light/mirror_light.h"
 #include "light/piece_grid.h"
 #include "light/receiver.h"
@@ -196,7 +197,7 @@ bool take_patches(const Scene& scene, Arena& arena, DirectLight& direct) {
 }
 
 std::size_t sub_patch_factors(const Scene& scene, const Options& options) {
-  return options.gathers() ? scene.sub_patch_count : 0;
+  return features::gathers(options) ? scene.sub_patch_count : 0;
 }
 
 bool take_sub_patches(const Scene& scene, const Options& options, Arena& arena, DirectLight& direct) {
