@@ -169,7 +169,7 @@ workstation:
 memory-cost:
 	@sh tools/memory-cost $(MEMORY_COST_OPTIONS)
 
-# Both rooms with every budget in steps of 1 %; takes hours.
+# Both rooms with every budget in steps of 1 %: some ten minutes with blocks.
 check-budgets:
 	@sh tools/check-budgets $(MEMORY_COST_OPTIONS)
 

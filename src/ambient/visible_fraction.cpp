@@ -158,6 +158,11 @@ Aim aim_between(const Surfaces& surfaces, const PairEnds& ends, const Aim* wide,
   return intersector.aim(i, j, link_between(surfaces, ends.few_i.position, ends.few_j.position));
 }
 
+double segments_between(const PairEnds& ends) {
+  return static_cast<double>(ends.one_set() ? ends.few_i.set.size() * ends.few_j.set.size()
+                                            : ends.few_i.set.size() * ends.many_j.set.size() * 2);
+}
+
 VisibleFraction weighted_fraction(const Surfaces& surfaces, const PairEnds& ends, const Tester& tester) {
   for (const bool alike : {false, true}) {
     Sums sums;
@@ -169,9 +174,7 @@ VisibleFraction weighted_fraction(const Surfaces& surfaces, const PairEnds& ends
     }
     if (!(sums.all > 0)) continue;
     const double value = sums.free / sums.all;
-    const std::size_t segments = ends.one_set() ? ends.few_i.set.size() * ends.few_j.set.size()
-                                                : ends.few_i.set.size() * ends.many_j.set.size() * 2;
-    return {value, value * (1 - value) / static_cast<double>(segments)};
+    return {value, value * (1 - value) / segments_between(ends)};
   }
   return {0, 0};
 }
@@ -207,9 +210,7 @@ VisibleFraction fraction_through_panes(const Surfaces& surfaces, const PairEnds&
     if (!(sums.all > 0)) continue;
     mixed = sums.mixed();
     const double value = sums.mixed() ? sums.free / sums.all : sums.most;
-    const std::size_t segments = ends.one_set() ? ends.few_i.set.size() * ends.few_j.set.size()
-                                                : ends.few_i.set.size() * ends.many_j.set.size() * 2;
-    return {value, mixed ? value * (1 - value) / static_cast<double>(segments) : 0};
+    return {value, mixed ? value * (1 - value) / segments_between(ends) : 0};
   }
   mixed = false;
   return {0, 0};

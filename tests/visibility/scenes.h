@@ -176,4 +176,20 @@ class Random {
   std::uint64_t state_;
 };
 
+inline Triangle triangle_of(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
+  Triangle t;
+  t.a = a;
+  t.b = b;
+  t.c = c;
+  t.n = cross(b - a, c - a);
+  t.d = t.n.x * a.x + t.n.y * a.y + t.n.z * a.z;
+  return t;
+}
+
+/// A point that vertices may have, at most so far from the middle in each coordinate.
+inline LatticePoint even_within(Random& random, std::int32_t reach) {
+  return {2 * random.between(-reach / 2, reach / 2), 2 * random.between(-reach / 2, reach / 2),
+          2 * random.between(-reach / 2, reach / 2)};
+}
+
 }  // namespace shodo

@@ -15,21 +15,6 @@ constexpr std::int32_t kHalf = 1 << 19;
 
 std::int32_t clamped(std::int64_t x) { return static_cast<std::int32_t>(x < -kHalf ? -kHalf : x > kHalf ? kHalf : x); }
 
-Triangle make(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
-  Triangle t;
-  t.a = a;
-  t.b = b;
-  t.c = c;
-  t.n = cross(b - a, c - a);
-  t.d = t.n.x * a.x + t.n.y * a.y + t.n.z * a.z;
-  return t;
-}
-
-LatticePoint even_within(Random& random, std::int32_t reach) {
-  return {2 * random.between(-reach / 2, reach / 2), 2 * random.between(-reach / 2, reach / 2),
-          2 * random.between(-reach / 2, reach / 2)};
-}
-
 /// A rectangle square to an axis, a trapezoid in such a plane, or any two triangles with a common side; also slivers.
 void make_facet(Random& random, std::uint32_t kind, std::vector<Triangle>& triangles, Facet& facet) {
   const std::int32_t reach = random.below(3) == 0 ? 60 : random.below(2) == 0 ? 5000 : kHalf;
@@ -48,7 +33,7 @@ void make_facet(Random& random, std::uint32_t kind, std::vector<Triangle>& trian
       (u == 0 ? v[3].x : v[3].y) = u == 0 ? low.x : low.y;
     }
   }
-  triangles = {make(v[0], v[1], v[2]), make(v[0], v[2], v[3])};
+  triangles = {triangle_of(v[0], v[1], v[2]), triangle_of(v[0], v[2], v[3])};
   if (kind == 3) triangles.pop_back();
   bool tilted = false;
   facet.box = facet_box(triangles, tilted);

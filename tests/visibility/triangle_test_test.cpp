@@ -13,21 +13,6 @@ namespace {
 
 constexpr std::int32_t kEnd = 1 << 19;
 
-Triangle make(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
-  Triangle t;
-  t.a = a;
-  t.b = b;
-  t.c = c;
-  t.n = cross(b - a, c - a);
-  t.d = t.n.x * a.x + t.n.y * a.y + t.n.z * a.z;
-  return t;
-}
-
-LatticePoint even(Random& random, std::int32_t reach) {
-  return {2 * random.between(-reach / 2, reach / 2), 2 * random.between(-reach / 2, reach / 2),
-          2 * random.between(-reach / 2, reach / 2)};
-}
-
 LatticePoint corner_of_cube(Random& random) {
   return {random.below(2) != 0 ? kEnd : -kEnd, random.below(2) != 0 ? kEnd : -kEnd,
           random.below(2) != 0 ? kEnd : -kEnd};
@@ -42,7 +27,7 @@ void make_pair(Random& random, Triangle (&pair)[2]) {
   const std::uint32_t kind = random.below(6);
   const std::int32_t reach = kind == 0 ? kEnd : kind == 1 ? 40 : kind == 2 ? 3000 : kEnd - 64;
   LatticePoint v[4];
-  for (LatticePoint& p : v) p = even(random, reach);
+  for (LatticePoint& p : v) p = even_within(random, reach);
   if (kind == 3) {  // slivers: the third corner within a few steps of the edge
     for (int k = 2; k < 4; ++k) {
       const double t = random.unit();
@@ -58,8 +43,8 @@ void make_pair(Random& random, Triangle (&pair)[2]) {
     const std::uint32_t axis = random.below(3);
     for (LatticePoint& p : v) (axis == 0 ? p.x : axis == 1 ? p.y : p.z) = v[0].x;
   }
-  pair[0] = make(v[0], v[1], v[2]);
-  pair[1] = make(v[1], v[0], v[3]);
+  pair[0] = triangle_of(v[0], v[1], v[2]);
+  pair[1] = triangle_of(v[1], v[0], v[3]);
 }
 
 /// A target on or by the triangle: a corner, a point of an edge where that is on the lattice, else a step or two off.
@@ -149,7 +134,7 @@ TEST(TriangleTest, ExtremesOfTheLatticeStayExact) {
   for (int a = 0; a < 8; ++a) {
     for (int b = 0; b < 8; ++b) {
       for (int c = 0; c < 8; ++c) {
-        const Triangle t = make(v[a], v[b], v[c]);
+        const Triangle t = triangle_of(v[a], v[b], v[c]);
         for (int p = 0; p < 8; ++p) {
           for (int q = 0; q < 8; ++q) {
             const LatticePoint from{v[p].x + (v[p].x > 0 ? -1 : 1), v[p].y, v[p].z};
@@ -168,7 +153,7 @@ TEST(TriangleTest, ExtremesOfTheLatticeStayExact) {
 }
 
 TEST(TriangleTest, ClosedTriangleOpenSegment) {
-  const Triangle t = make({0, 0, 0}, {10, 0, 0}, {0, 10, 0});
+  const Triangle t = triangle_of({0, 0, 0}, {10, 0, 0}, {0, 10, 0});
   EXPECT_TRUE(blocks_segment(t, {2, 2, 5}, {2, 2, -5}));
   EXPECT_TRUE(blocks_segment(t, {0, 0, 1}, {0, 0, -1})) << "through a corner";
   EXPECT_TRUE(blocks_segment(t, {5, 5, 1}, {5, 5, -1})) << "through an edge";
@@ -176,7 +161,7 @@ TEST(TriangleTest, ClosedTriangleOpenSegment) {
   EXPECT_FALSE(blocks_segment(t, {2, 2, 0}, {2, 2, -5})) << "starts on it";
   EXPECT_FALSE(blocks_segment(t, {-5, 2, 0}, {20, 2, 0})) << "lies in its plane";
   EXPECT_FALSE(blocks_segment(t, {6, 6, 5}, {6, 6, -5})) << "beside it";
-  EXPECT_FALSE(blocks_segment(make({0, 0, 0}, {4, 4, 4}, {8, 8, 8}), {0, 8, 4}, {8, 0, 4})) << "no normal";
+  EXPECT_FALSE(blocks_segment(triangle_of({0, 0, 0}, {4, 4, 4}, {8, 8, 8}), {0, 8, 4}, {8, 0, 4})) << "no normal";
   EXPECT_TRUE(blocks_ray(t, {2, 2, 5}, {0, 0, -(1 << 20)}));
   EXPECT_FALSE(blocks_ray(t, {2, 2, 5}, {0, 0, 1 << 20})) << "away from it";
   EXPECT_FALSE(blocks_ray(t, {2, 2, 0}, {0, 0, 1 << 20})) << "starts on it";
