@@ -1,9 +1,9 @@
 #include "memory_plan.h"
 
 #include "ambient/ambient_memory.h"
-#include "ambient/coloured_panes.h"
-#include "ambient/mirror_share.h"
 #include "ambient/gather.h"
+#include "ambient/plane_gather.h"
+#include "ambient/rounds.h"
 #include "ambient/surfaces.h"
 #include "base/check.h"
 #include "light/mirror_light.h"
@@ -32,11 +32,6 @@ std::uint64_t drawn_bytes(const Model& model) {
 
 std::uint64_t mirror_bytes(const Model& model) {
   return model.options.mirror_light ? MirrorLight::bytes(model.scene, model.geometry) : 0;
-}
-
-/// What panes and mirrors want in the ambient stage.
-std::uint64_t ambient_optics_bytes(const Model& model) {
-  return coloured_panes_bytes(model.scene, model.geometry) + mirror_share_bytes(model.scene, model.options);
 }
 
 /// What load() leaves, and what it takes meanwhile.
@@ -69,15 +64,15 @@ void plan_light(const Model& model, MemoryPlan& plan) {
   plan.add(PlanPart::kSurfaces, surfaces, kAmbient);
   plan.add(PlanPart::kLinks, links, kAmbient);
   plan.add(PlanPart::kSolution, ambient - result - surfaces - links, kAmbient);
-  if (const std::uint64_t optics = ambient_optics_bytes(model); optics > 0) {
-    plan.add(PlanPart::kAmbientOptics, optics, kAmbient);
+  if (const std::uint64_t rounds = rounds_bytes(scene, model.geometry, options); rounds > 0) {
+    plan.add(PlanPart::kAmbientOptics, rounds, kAmbient);
   }
   plan.add(PlanPart::kSubPatches, direct_sub_patch_bytes(scene, options), kAgain | kMap | kPicture);
 }
 
 /// Nothing for scenes without planes.
 void plan_planes(const Model& model, MemoryPlan& plan) {
-  if (model.scene.planes.empty()) return;
+  if (!features::kPlanes || model.scene.planes.empty()) return;
   plan.add(PlanPart::kPlanes, plane_map_bytes(model.scene), kAgain | kMap | kPicture);
   plan.add(PlanPart::kMeasuring, plane_gather_bytes(model.scene), kAgain);
 }
@@ -123,7 +118,7 @@ PartText plan_part_text(PlanPart part) {
        "32 meshes + 39 facets (24 of them in steps of 64)"},
       {"solution",
        "16 c + 8 a node (+ 2 with rules 1 and 2, 16 with 2+) + one "
-       "row + the coarse correction; rows: what is left"},
+       "row + the coarse correction + 2,300; rows: what is left"},
       {"ambient light by channel, over mirrors", "8 c n where panes are coloured, 24 c n with --mirror-light on"},
       {"direct light of the sub-patches", "(4 c + 1) s, (4 c + 3) s with --gather on; spare: given up to the rows"},
       {"light of measuring planes", "(8 c + 1) sub-patches of planes"},
@@ -182,8 +177,8 @@ bool keeps_geometry(const Model& model) {
   const std::uint64_t ambient = smallest_ambient_bytes(scene, model.geometry, options, SurfacesKeep::kGeometry);
   const std::uint64_t rows = expected_row_bytes(scene, options);
   // Geometry costs less to find again than the direct light that would have to make room for it.
-  const std::uint64_t optics = ambient_optics_bytes(model);
-  std::uint64_t most = patches + blockers + ambient + optics + rows + (rows > 0 ? sub_patches : 0);
+  const std::uint64_t rounds = rounds_bytes(scene, model.geometry, options);
+  std::uint64_t most = patches + blockers + ambient + rounds + rows + (rows > 0 ? sub_patches : 0);
   most = larger(most, solved + blockers + Sources::bytes(scene) + plane_gather_bytes(scene) + mirror_bytes(model));
   most = larger(most, solved + maps_bytes(model, SurfacesKeep::kGeometry));
   return most <= model.arena.capacity();

@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <span>
 
-#include "ambient/ambient.h"
+#include "ambient/rounds.h"
 #include "base/arena.h"
 #include "light/direct.h"
+#include "light/plane_light.h"
 #include "map/illuminance_map.h"
-#include "map/plane_maps.h"
 #include "picture/seen_points.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
@@ -33,6 +33,7 @@ struct Model {
   FlagTables flags;                // of paper 3.1, and what was found; empty with flags off
   DirectLight direct;
   AmbientLight ambient;
+  AmbientRounds rounds;
   IlluminanceMaps maps;
   PlaneMaps planes;
   std::uint64_t memory_bytes = 0;  // what the caller gave
@@ -43,17 +44,28 @@ struct Model {
   std::uint32_t loaded_spares = 0;
   std::uint64_t picture_scratch = 0;  // bytes of draw_picture(); found while the drawn triangles are there
   Arena::Mark before_maps = 0;     // what the picture is made of comes from here on
+  Arena::Mark before_drawing = 0;
   Statistics loaded;               // and what was counted until then
   bool solved = false;
 };
 
 /// What every sample of the picture of a solved model sees. Errors: as draw().
 Status see(Model& model, const Progress& progress, const SeenSink& sink);
-/// The steps of solve(), in this order. What one leaves to the next lies in the model, so that a machine with little
-/// memory for code can hold one at a time (doc/determinism.md). Errors: those of solve().
+/// The steps of load(), solve() and draw(), in this order. What one leaves to the next lies in the model, so that a machine
+/// with little memory for code can hold one at a time (doc/determinism.md). Errors: those of load(), solve() and draw().
+Status start_loading(std::string_view name, std::string_view text, const Reader& reader, const Options& options,
+                     void* memory, std::size_t bytes, Model*& model);
+Status finish_loading(Model& model);
 Status start_solving(Model& model);
 Status solve_directly(Model& model, const Progress& progress);
+/// As `rounds` say which is next, until they are done.
+Status prepare_ambiently(Model& model, const Progress& progress);
 Status solve_ambiently(Model& model, const Progress& progress);
+Status send_over_mirrors(Model& model, const Progress& progress);
+/// Direct light of measuring planes; and all once more, if the rows had the memory of the sub-patches'.
+Status solve_again(Model& model, const Progress& progress);
 Status solve_maps(Model& model, const Progress& progress);
+Status start_drawing(Model& model, const Progress& progress);
+Status finish_drawing(Model& model, const Progress& progress, const LineSink& sink);
 
 }  // namespace shodo

@@ -8,7 +8,7 @@
 #include <new>
 
 #include "ambient/gather.h"
-#include "ambient/mirror_share.h"
+#include "ambient/plane_gather.h"
 #include "base/self_check.h"
 #include "base/text.h"
 #include "memory_plan.h"
@@ -87,11 +87,8 @@ void count_scene(Model& model) {
   }
 }
 
-Status load_and_place(std::string_view name, std::string_view text, const Reader& reader, Model& model) {
-  Status status = load_scene(name, text, reader, model.options, model.arena, model.scene);
-  if (!status.done()) return status;
-  model.after_scene = model.arena.mark();
-  status = place_scene(model.scene, model.arena, model.geometry);
+Status place(Model& model) {
+  Status status = place_scene(model.scene, model.arena, model.geometry);
   if (!status.done()) return status;
   model.after_geometry = model.arena.mark();
   model.loaded_spares = model.arena.spares();
@@ -175,35 +172,35 @@ void give_up_patches(Model& model) {
   model.ambient = {};
 }
 
-/// The drawn triangles, if the light took their memory, and then what is made of them: draw(arena).
-template <class Draw>
-Status place_and_draw(Model& model, Draw draw) {
+/// The drawn triangles, if the light took their memory.
+Status place_drawn_again(Model& model) {
   Geometry& geometry = model.geometry;
   Arena& arena = model.arena;
   const bool held = arena.holds(geometry.drawn) && geometry.drawn.size() == geometry.drawn_count;
   arena.pin_spares(arena.spares());
   const std::uint64_t wanted = held ? model.picture_scratch : drawn_and_picture_bytes(model);
   if (wanted > arena.left()) give_up_patches(model);
-  const ArenaScratch scratch(arena);
-  if (!held) {
-    if (!place_drawn(model.scene, arena, geometry)) return arena.refused();
-    model.statistics.placed_again = 1;
-  }
-  const Status status = draw(arena);
-  if (!held) geometry.drawn = {};
-  return status;
+  model.before_drawing = arena.mark();
+  if (held) return {};
+  model.statistics.placed_again = 1;
+  return place_drawn(model.scene, arena, geometry) ? Status() : arena.refused();
 }
 
-template <class Draw>
-Status draw_solved(Model& model, const Progress& progress, Draw draw) {
-  if (const Status fit = self_check(); !fit.done()) return fit;
-  if (!model.solved) return wrong_use("expected a solved model, found one that is only loaded");
-  const std::uint64_t needed = smallest_memory(model);
-  if (needed > model.memory_bytes) return too_small(needed, model.memory_bytes);
-  if (!progress.go_on(Stage::kPicture, 0, 1)) return interrupted();
-  model.arena.start_stage();
-  const Status status = place_and_draw(model, draw);
+/// What drawing took goes, and so do drawn triangles that aren't spare.
+Status end_drawing(Model& model, const Status& status) {
+  model.arena.release(model.before_drawing);
+  if (!model.arena.holds(model.geometry.drawn)) model.geometry.drawn = {};
   end_stage(model, MemoryStage::kPicture);
+  return with_model(status, model.overhead);
+}
+
+AmbientStage ambient_stage(Model& model, const Progress& progress) {
+  return {model.scene, model.geometry, model.patches, model.direct,  model.intersector,
+          model.options, progress, model.arena, model.ambient, model.statistics};
+}
+
+Status after_ambient_step(Model& model, const Status& status) {
+  if (model.rounds.next == AmbientRounds::Step::kDone) end_stage(model, MemoryStage::kAmbient);
   return with_model(status, model.overhead);
 }
 
@@ -219,8 +216,8 @@ Status self_check() {
   return status;
 }
 
-Status load(std::string_view name, std::string_view text, const Reader& reader, const Options& options, void* memory,
-            std::size_t bytes, Model*& model) {
+Status start_loading(std::string_view name, std::string_view text, const Reader& reader, const Options& options,
+                     void* memory, std::size_t bytes, Model*& model) {
   model = nullptr;
   if (const char* part = part_left_out(options); part != nullptr) return left_out(part);
   if (const Status fit = self_check(); !fit.done()) return fit;
@@ -229,20 +226,35 @@ Status load(std::string_view name, std::string_view text, const Reader& reader, 
   const std::size_t overhead = skip + sizeof(Model);
   if (bytes < overhead) return too_small(overhead, bytes);
   std::byte* start = static_cast<std::byte*>(memory) + skip;
-  Model* loaded = new (start) Model(start + sizeof(Model), bytes - overhead);
-  loaded->options = options;
-  loaded->memory_bytes = bytes;
-  loaded->overhead = overhead;
-  loaded->statistics.memory_budget = bytes;
-  const Status status = load_and_place(name, text, reader, *loaded);
+  Model* read = new (start) Model(start + sizeof(Model), bytes - overhead);
+  read->options = options;
+  read->memory_bytes = bytes;
+  read->overhead = overhead;
+  read->statistics.memory_budget = bytes;
+  const Status status = load_scene(name, text, reader, options, read->arena, read->scene);
   if (!status.done()) return with_model(status, overhead);
-  count_scene(*loaded);
-  loaded->arena.pin_spares(0);
-  loaded->picture_scratch = picture_bytes(loaded->scene, loaded->geometry, options);
-  loaded->statistics.stage_peak[0] = loaded->statistics.memory_peak = overhead + loaded->arena.peak();
-  loaded->arena.start_stage();
-  loaded->loaded = loaded->statistics;
-  model = loaded;
+  read->after_scene = read->arena.mark();
+  model = read;
+  return status;
+}
+
+Status finish_loading(Model& model) {
+  const Status status = place(model);
+  if (!status.done()) return with_model(status, model.overhead);
+  count_scene(model);
+  model.arena.pin_spares(0);
+  model.picture_scratch = picture_bytes(model.scene, model.geometry, model.options);
+  model.statistics.stage_peak[0] = model.statistics.memory_peak = model.overhead + model.arena.peak();
+  model.arena.start_stage();
+  model.loaded = model.statistics;
+  return status;
+}
+
+Status load(std::string_view name, std::string_view text, const Reader& reader, const Options& options, void* memory,
+            std::size_t bytes, Model*& model) {
+  Status status = start_loading(name, text, reader, options, memory, bytes, model);
+  if (status.done()) status = finish_loading(*model);
+  if (!status.done()) model = nullptr;
   return status;
 }
 
@@ -250,6 +262,7 @@ Status start_solving(Model& model) {
   if (const Status fit = self_check(); !fit.done()) return fit;
   model.statistics = model.loaded;
   model.solved = false;
+  model.rounds = {};
   const std::uint64_t needed = smallest_memory(model, false);
   if (needed > model.memory_bytes) return too_small(needed, model.memory_bytes);
   // Where they were others may lie by now: gone is gone.
@@ -271,29 +284,42 @@ Status solve_directly(Model& model, const Progress& progress) {
   return with_model(status, model.overhead);
 }
 
+Status prepare_ambiently(Model& model, const Progress& progress) {
+  return after_ambient_step(model, model.rounds.prepare(ambient_stage(model, progress)));
+}
+
 Status solve_ambiently(Model& model, const Progress& progress) {
-  const Status status = light_ambiently_with_optics(model.scene, model.geometry, model.patches, model.direct,
-                                                    model.intersector, model.options, progress, model.arena,
-                                                    model.ambient, model.statistics);
-  end_stage(model, MemoryStage::kAmbient);
+  return after_ambient_step(model, model.rounds.solve(ambient_stage(model, progress)));
+}
+
+Status send_over_mirrors(Model& model, const Progress& progress) {
+  return after_ambient_step(model, model.rounds.send_over_mirrors(ambient_stage(model, progress)));
+}
+
+Status solve_again(Model& model, const Progress& progress) {
+  model.before_maps = model.arena.mark();
+  Status status;
+  if (features::kPlanes && !model.scene.planes.empty()) {
+    status = light_planes(model.scene, model.geometry, model.options, model.intersector, progress, model.arena,
+                          model.planes, model.statistics);
+  }
+  if (status.done()) status = keep_sub_patches(model, progress);
+  end_stage(model, MemoryStage::kDirect);
   return with_model(status, model.overhead);
 }
 
 Status solve_maps(Model& model, const Progress& progress) {
-  model.before_maps = model.arena.mark();
-  Status status;
-  if (!model.scene.planes.empty()) {
-    status = measure_planes({model.scene, model.geometry, model.patches, model.direct, model.ambient}, model.options,
-                            model.intersector, progress, model.arena, model.planes, model.statistics);
-    if (!status.done()) return with_model(status, model.overhead);
-  }
-  status = keep_sub_patches(model, progress);
-  end_stage(model, MemoryStage::kDirect);
-  if (!status.done()) return with_model(status, model.overhead);
-  model.flags = model.intersector.flags();
   if (!progress.go_on(Stage::kMap, 0, 1)) return interrupted();
-  status = map_illuminance(model.scene, model.patches, model.direct, model.ambient, model.options, model.arena,
-                           model.maps);
+  Status status;
+  if (features::kPlanes && !model.scene.planes.empty()) {
+    status = gather_planes({model.scene, model.geometry, model.patches, model.direct, model.ambient},
+                           model.intersector, progress, model.arena, model.planes, model.statistics);
+  }
+  model.flags = model.intersector.flags();
+  if (status.done()) {
+    status = map_illuminance(model.scene, model.patches, model.direct, model.ambient, model.options, model.arena,
+                             model.maps);
+  }
   if (status.done() && features::gathers(model.options)) {
     status = gather_illuminance(model.scene, model.geometry, model.patches, model.direct, model.ambient,
                                 model.intersector, model.options, progress, model.arena, model.maps.ambient_lx,
@@ -307,20 +333,42 @@ Status solve_maps(Model& model, const Progress& progress) {
 Status solve(Model& model, const Progress& progress) {
   Status status = start_solving(model);
   if (status.done()) status = solve_directly(model, progress);
-  if (status.done()) status = solve_ambiently(model, progress);
+  while (status.done() && model.rounds.next != AmbientRounds::Step::kDone) {
+    switch (model.rounds.next) {
+      case AmbientRounds::Step::kPrepare: status = prepare_ambiently(model, progress); break;
+      case AmbientRounds::Step::kSolve: status = solve_ambiently(model, progress); break;
+      default: status = send_over_mirrors(model, progress);
+    }
+  }
+  if (status.done()) status = solve_again(model, progress);
   return status.done() ? solve_maps(model, progress) : status;
 }
 
+Status start_drawing(Model& model, const Progress& progress) {
+  if (const Status fit = self_check(); !fit.done()) return fit;
+  if (!model.solved) return wrong_use("expected a solved model, found one that is only loaded");
+  const std::uint64_t needed = smallest_memory(model);
+  if (needed > model.memory_bytes) return too_small(needed, model.memory_bytes);
+  if (!progress.go_on(Stage::kPicture, 0, 1)) return interrupted();
+  model.arena.start_stage();
+  const Status status = place_drawn_again(model);
+  return status.done() ? status : end_drawing(model, status);
+}
+
+Status finish_drawing(Model& model, const Progress& progress, const LineSink& sink) {
+  return end_drawing(model, draw_picture(model.scene, model.geometry, model.maps, model.options, progress,
+                                         model.arena, sink));
+}
+
 Status draw(Model& model, const Progress& progress, const LineSink& sink) {
-  return draw_solved(model, progress, [&](Arena& arena) {
-    return draw_picture(model.scene, model.geometry, model.maps, model.options, progress, arena, sink);
-  });
+  const Status status = start_drawing(model, progress);
+  return status.done() ? finish_drawing(model, progress, sink) : status;
 }
 
 Status see(Model& model, const Progress& progress, const SeenSink& sink) {
-  return draw_solved(model, progress, [&](Arena& arena) {
-    return see_points(model.scene, model.geometry, model.options, progress, arena, sink);
-  });
+  const Status status = start_drawing(model, progress);
+  if (!status.done()) return status;
+  return end_drawing(model, see_points(model.scene, model.geometry, model.options, progress, model.arena, sink));
 }
 
 const Statistics& statistics(const Model& model) { return model.statistics; }

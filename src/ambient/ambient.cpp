@@ -5,9 +5,9 @@
 // The rules of paper 3.2: ambient/sparsity.h (1, 2 and 2+), ambient/link_walk.h (3 and blocks).
 #include "ambient/ambient.h"
 
+#include <new>
+
 #include "ambient/ambient_memory.h"
-#include "ambient/gauss_seidel.h"
-#include "ambient/matrix.h"
 
 namespace shodo {
 
@@ -72,27 +72,34 @@ Status solve_in_rounds(const DirectLight& direct, Intersector& intersector, cons
 
 }  // namespace
 
-Status light_ambiently(const Scene& scene, const Geometry& geometry, std::span<const Patch> patches,
-                       const DirectLight& direct, Intersector& intersector, const Options& options,
-                       const Progress& progress, Arena& arena, AmbientLight& ambient, Statistics& statistics) {
+Status prepare_ambient(const Scene& scene, const Geometry& geometry, std::span<const Patch> patches,
+                       const DirectLight& direct, Intersector& intersector, const Options& options, Arena& arena,
+                       AmbientLight& ambient, AmbientWork*& work) {
   const std::size_t n = scene.patch_count;
   if (!arena.take("ambient illuminance", n * scene.channels, ambient.patch_lx)) return arena.refused();
-  const ArenaScratch scratch(arena);
-  Matrix matrix(arena);
+  const Arena::Mark after_result = arena.mark();
+  std::span<AmbientWork> room;
+  if (!arena.take("matrix and solver", 1, room)) return arena.refused();
+  work = new (room.data()) AmbientWork(arena, after_result);
+  Matrix& matrix = work->matrix;
   matrix.options = &options;
-  Solver solver;
-  solver.ambient_lx = ambient.patch_lx;
+  work->solver.ambient_lx = ambient.patch_lx;
   Status status = gather_surfaces(scene, geometry, patches, direct, options, arena, matrix.surfaces,
                                   patches.empty() ? SurfacesKeep::kNothing : SurfacesKeep::kGeometry);
   if (!status.done()) return status;
-  if (!take_solver(arena, scene, options.rules, matrix.surfaces.size(), solver)) return arena.refused();
+  if (!take_solver(arena, scene, options.rules, matrix.surfaces.size(), work->solver)) return arena.refused();
   if (n == 0) return status;
   status = prepare_matrix(direct, arena, matrix);
   if (!status.done()) return status;
-  const IntersectorScratch seeking(intersector);
   if (!intersector.start(arena)) return arena.refused();
   if (features::blocks(options.rules)) matrix.tools.sight.start(intersector);
-  return solve_in_rounds(direct, intersector, progress, matrix, solver, statistics);
+  return status;
+}
+
+Status solve_prepared(const DirectLight& direct, Intersector& intersector, const Progress& progress, AmbientWork& work,
+                      Statistics& statistics) {
+  if (work.matrix.surfaces.scene->patch_count == 0) return {};
+  return solve_in_rounds(direct, intersector, progress, work.matrix, work.solver, statistics);
 }
 
 std::uint64_t ambient_result_bytes(const Scene& scene) {
@@ -103,7 +110,7 @@ std::uint64_t smallest_ambient_bytes(const Scene& scene, const Geometry& geometr
                                      SurfacesKeep keep) {
   const std::uint64_t result = ambient_result_bytes(scene);
   const std::uint64_t before_rows = surfaces_bytes(scene, options, keep) + solver_bytes(scene, options);
-  return result + before_rows + (scene.patch_count > 0 ? matrix_bytes(scene, geometry, options) : 0);
+  return result + sizeof(AmbientWork) + before_rows + (scene.patch_count > 0 ? matrix_bytes(scene, geometry, options) : 0);
 }
 
 std::uint64_t link_bytes(const Scene& scene, const Geometry& geometry, const Options& options) {

@@ -1,6 +1,5 @@
 #include "ambient/mirror_share.h"
 
-#include "ambient/coloured_panes.h"
 #include "light/piece_grid.h"
 #include "visibility/half_open.h"
 
@@ -8,15 +7,7 @@ namespace shodo {
 
 namespace {
 
-constexpr std::uint32_t kRounds = 2;
 constexpr std::uint32_t kPoints = 4;
-
-bool shares(const Scene& scene, const Options& options) {
-  for (const Optics& optics : scene.optics) {
-    if (options.mirror_light && optics.mirrors()) return true;
-  }
-  return false;
-}
 
 /// A patch's Gauss points.
 struct PatchPoints {
@@ -151,10 +142,24 @@ void MirrorShare::gather_over(const PatchPoints& i, const PatchPoints& j, std::u
   }
 }
 
-/// Of all patches, into `share`.
-Status gather_all(MirrorShare& mirrors, const Scene& scene, const Progress& progress, std::span<double> share) {
+}  // namespace
+
+bool mirrors_share(const Scene& scene, const Options& options) {
+  for (const Optics& optics : scene.optics) {
+    if (options.mirror_light && optics.mirrors()) return true;
+  }
+  return false;
+}
+
+Status share_over_mirrors(const Scene& scene, const Geometry& geometry, std::span<const Patch> patches,
+                          const DirectLight& direct, const AmbientLight& ambient, Intersector& intersector,
+                          const Progress& progress, Arena& arena, std::span<double> share_lx) {
+  const ArenaScratch scratch(arena);
+  const IntersectorScratch seeking(intersector);
+  if (!intersector.start(arena)) return arena.refused();
+  MirrorShare mirrors(scene, geometry, patches, direct, ambient.patch_lx, intersector);
   Status status;
-  for (double& value : share) value = 0;
+  for (double& value : share_lx) value = 0;
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
     for (std::uint32_t local = 0; local < scene.meshes[m].patch_count(); ++local) {
       const std::uint32_t i = scene.meshes[m].first_patch + local;
@@ -162,49 +167,10 @@ Status gather_all(MirrorShare& mirrors, const Scene& scene, const Progress& prog
         status.code = StatusCode::kInterrupted;
         return status;
       }
-      mirrors.gather(m, local, &share[std::size_t{i} * scene.channels]);
+      mirrors.gather(m, local, &share_lx[std::size_t{i} * scene.channels]);
     }
   }
   return status;
-}
-
-}  // namespace
-
-Status light_ambiently_with_optics(const Scene& scene, const Geometry& geometry, std::span<const Patch> patches,
-                                   const DirectLight& direct, Intersector& intersector, const Options& options,
-                                   const Progress& progress, Arena& arena, AmbientLight& ambient,
-                                   Statistics& statistics) {
-  if (!shares(scene, options)) {
-    return light_ambiently_through_panes(scene, geometry, patches, direct, intersector, options, progress, arena,
-                                         ambient, statistics);
-  }
-  const std::size_t values = std::size_t{scene.patch_count} * scene.channels;
-  if (!arena.take("ambient illuminance with mirrors", values, ambient.patch_lx)) return arena.refused();
-  const ArenaScratch scratch(arena);
-  std::span<double> share;
-  if (!arena.take("light over mirrors", values, share)) return arena.refused();
-  for (std::uint32_t round = 0; round <= kRounds; ++round) {
-    const ArenaScratch round_scratch(arena);
-    DirectLight lit = direct;
-    if (!arena.take("first light and that over mirrors", values, lit.patch_lx)) return arena.refused();
-    for (std::size_t k = 0; k < values; ++k) lit.patch_lx[k] = direct.patch_lx[k] + share[k];
-    AmbientLight solved;
-    Status status = light_ambiently_through_panes(scene, geometry, patches, lit, intersector, options, progress, arena,
-                                                  solved, statistics);
-    if (!status.done()) return status;
-    for (std::size_t k = 0; k < values; ++k) ambient.patch_lx[k] = solved.patch_lx[k] + share[k];
-    if (round == kRounds) return status;
-    const IntersectorScratch seeking(intersector);
-    if (!intersector.start(arena)) return arena.refused();
-    MirrorShare mirrors(scene, geometry, patches, direct, ambient.patch_lx, intersector);
-    status = gather_all(mirrors, scene, progress, share);
-    if (!status.done()) return status;
-  }
-  return {};
-}
-
-std::uint64_t mirror_share_bytes(const Scene& scene, const Options& options) {
-  return shares(scene, options) ? 24 * std::uint64_t{scene.patch_count} * scene.channels : 0;
 }
 
 }  // namespace shodo

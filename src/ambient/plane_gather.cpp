@@ -187,9 +187,13 @@ std::uint32_t most_points(const Scene& scene) {
 }  // namespace
 
 Status gather_planes(const SolvedPatches& solved, Intersector& intersector, const Progress& progress, Arena& arena,
-                     PlaneMaps& maps) {
+                     PlaneMaps& maps, Statistics& statistics) {
   const Scene& scene = solved.scene;
   const ArenaScratch arena_scratch(arena);
+  const IntersectorScratch seeking(intersector);
+  if (!intersector.start(arena)) return arena.refused();
+  statistics.segments_planes -= intersector.segments(LightSet::kAmbient);
+  statistics.tests_planes -= intersector.tests(LightSet::kAmbient);
   Scratch scratch;
   if (!take(arena, most_points(scene), scene.channels, scratch)) return arena.refused();
   Gather gather(solved, intersector, maps);
@@ -205,6 +209,8 @@ Status gather_planes(const SolvedPatches& solved, Intersector& intersector, cons
       gather.gather_patch(plane, receiver.receiver(), p % plane.nu, p / plane.nu, scratch);
     }
   }
+  statistics.segments_planes += intersector.segments(LightSet::kAmbient);
+  statistics.tests_planes += intersector.tests(LightSet::kAmbient);
   return {};
 }
 

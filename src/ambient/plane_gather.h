@@ -32,9 +32,9 @@ struct SolvedPatches {
   const AmbientLight& ambient;
 };
 
-/// Fills `ambient_lx` where not hidden; the intersector is started. Errors: kMemory, kInterrupted.
+/// Fills `ambient_lx` where not hidden; counts segments and tests of planes. Errors: kMemory, kInterrupted.
 Status gather_planes(const SolvedPatches& solved, Intersector& intersector, const Progress& progress, Arena& arena,
-                     PlaneMaps& maps);
+                     PlaneMaps& maps, Statistics& statistics);
 
 /// Arena bytes of gather_planes at most.
 std::uint64_t plane_gather_bytes(const Scene& scene);

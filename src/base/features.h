@@ -10,6 +10,7 @@
 //                 every triangle, as with flags off, to the same bits             are refused
 //     GATHER      ambient light gathered by sub-patches (Options::gather)          the option is refused
 //     MESHES      triangles, grids, quads that are not convex                     the statements are refused
+//     PLANES      measuring planes                                                the statement is refused
 //     INCLUDES    `include` in a scene                                            the statement is refused
 //     MESSAGES    texts: a Status has code, file, line, column, bytes_needed, and as its message the word it is about
 #pragma once
@@ -47,6 +48,11 @@ inline constexpr bool kMeshes = false;
 #else
 inline constexpr bool kMeshes = true;
 #endif
+#ifdef SHODO_WITHOUT_PLANES
+inline constexpr bool kPlanes = false;
+#else
+inline constexpr bool kPlanes = true;
+#endif
 #ifdef SHODO_WITHOUT_INCLUDES
 inline constexpr bool kIncludes = false;
 #else
@@ -67,7 +73,7 @@ inline constexpr bool kSmallCode = false;
 #endif
 
 /// Nothing is left out.
-inline constexpr bool kFull = kBlocks && kRules && kAims && kGather && kMeshes && kIncludes && kMessages;
+inline constexpr bool kFull = kBlocks && kRules && kAims && kGather && kMeshes && kPlanes && kIncludes && kMessages;
 
 /// Nodes that hold others.
 inline constexpr bool kTrees = kBlocks || kRules;

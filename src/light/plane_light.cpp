@@ -54,14 +54,19 @@ std::uint64_t plane_map_bytes(const Scene& scene) {
 }
 
 Status light_planes(const Scene& scene, const Geometry& geometry, const Options& options, Intersector& intersector,
-                    const Progress& progress, Arena& arena, PlaneMaps& maps) {
+                    const Progress& progress, Arena& arena, PlaneMaps& maps, Statistics& statistics) {
+  if (!take_plane_maps(scene, arena, maps)) return arena.refused();
   const ArenaScratch scratch(arena);
+  const IntersectorScratch seeking(intersector);
+  if (!intersector.start(arena)) return arena.refused();
   Sources sources(scene, geometry, intersector, options.tiers);
   Status status = sources.prepare(arena);
   if (!status.done()) return status;
   MirrorLight mirrors(sources);
   if (options.mirror_light && !mirrors.take(arena)) return arena.refused();
   sources.start_patch({});
+  statistics.segments_planes -= intersector.segments(LightSet::kDirect);
+  statistics.tests_planes -= intersector.tests(LightSet::kDirect);
   for (const Plane& plane : scene.planes) {
     const PlaneReceiver receiver(geometry, plane);
     for (std::uint32_t local = 0; local < plane.sub_patch_count(); ++local) {
@@ -79,6 +84,8 @@ Status light_planes(const Scene& scene, const Geometry& geometry, const Options&
       }
     }
   }
+  statistics.segments_planes += intersector.segments(LightSet::kDirect);
+  statistics.tests_planes += intersector.tests(LightSet::kDirect);
   return {};
 }
 

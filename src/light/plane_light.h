@@ -15,6 +15,7 @@
 #include "scene/scene.h"
 #include "shodo/callbacks.h"
 #include "shodo/options.h"
+#include "shodo/statistics.h"
 #include "shodo/status.h"
 #include "visibility/intersector.h"
 
@@ -46,8 +47,9 @@ class PlaneReceiver {
 bool take_plane_maps(const Scene& scene, Arena& arena, PlaneMaps& maps);
 std::uint64_t plane_map_bytes(const Scene& scene);
 
-/// Fills `direct_lx` and `hidden`; the intersector is started. Errors: kMemory, kInterrupted.
+/// Takes the maps, which stay, and fills `direct_lx` and `hidden`; counts segments and tests of planes. Errors: kMemory,
+/// kInterrupted.
 Status light_planes(const Scene& scene, const Geometry& geometry, const Options& options, Intersector& intersector,
-                    const Progress& progress, Arena& arena, PlaneMaps& maps);
+                    const Progress& progress, Arena& arena, PlaneMaps& maps, Statistics& statistics);
 
 }  // namespace shodo

@@ -235,6 +235,7 @@ bool read_grid(SceneReading& reading) {
 
 /// plane NAME, 4 corners [patches NU NV] [sub SU SV]; like a light it doesn't end an object.
 bool read_plane(SceneReading& reading) {
+  if constexpr (!features::kPlanes) return left_out(reading, reading.statement);
   Token name;
   Plane plane;
   GivenCounts given;

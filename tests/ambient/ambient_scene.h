@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "ambient/ambient.h"
 #include "ambient/ambient_memory.h"
 #include "ambient/gauss_seidel.h"
 #include "ambient/matrix.h"
+#include "support/ambient_stage.h"
 #include "support/scene_from_text.h"
 #include "visibility/geometry.h"
 

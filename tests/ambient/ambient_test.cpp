@@ -1,4 +1,3 @@
-#include "ambient/ambient.h"
 
 #include <algorithm>
 #include <cmath>
@@ -287,7 +286,7 @@ TEST(AmbientLight, NothingToLightIsFine) {
   const Scene empty;
   const Geometry geometry;
   Intersector intersector(geometry);
-  std::uint64_t memory[4];
+  std::uint64_t memory[300];  // for the stage's own structures
   Arena arena(memory, sizeof memory);
   AmbientLight ambient;
   Statistics statistics;

@@ -60,7 +60,7 @@ constexpr Case kCases[] = {
     {"rules", "tests/cli/scenes/shapes.scn", papers_rules, Scarce::kNever, false, false},
     {"rule2+", "tests/cli/scenes/box.scn", repeated_rule2, Scarce::kNever, false, false},
     {"blocks", "tests/cli/scenes/box.scn", blocks, Scarce::kIfFast, false, false},
-    {"planes", "tests/cli/scenes/planes.scn", small, Scarce::kIfFast, false, true},
+    {"planes", "tests/cli/scenes/planes.scn", small, Scarce::kIfFast, false, false},
     {"textures", "tests/cli/scenes/textures.scn", small, Scarce::kNever, false, false},
     {"day", "data/day.scn", room, Scarce::kNever, false, false},
 };

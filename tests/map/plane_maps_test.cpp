@@ -1,5 +1,5 @@
 // Measuring planes: closed forms, and that measuring changes nothing.
-#include "map/plane_maps.h"
+#include "ambient/plane_gather.h"
 
 #include <gtest/gtest.h>
 
@@ -56,11 +56,11 @@ TEST(PlaneMaps, InAFurnaceEveryPlaneGathersWhatTheWallsSend) {
   Model& model = *scene.model;
   for (double& lux : model.ambient.patch_lx) lux = 600;
   Intersector intersector(model.geometry, model.scene, FlagMode::kAuto);
-  ASSERT_TRUE(intersector.start(model.arena));
   PlaneMaps maps;
+  Statistics counted;
   ASSERT_TRUE(take_plane_maps(model.scene, model.arena, maps));
   ASSERT_TRUE(gather_planes({model.scene, model.geometry, model.patches, model.direct, model.ambient}, intersector, {},
-                            model.arena, maps)
+                            model.arena, maps, counted)
                   .done());
   ASSERT_EQ(maps.ambient_lx.size(), 36u + 4u + 4u + 4u);
   for (const float lux : maps.ambient_lx) EXPECT_NEAR(static_cast<double>(lux), 300, 300 * 1e-6);

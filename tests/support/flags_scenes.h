@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "ambient/ambient.h"
 #include "light/direct.h"
+#include "support/ambient_stage.h"
 #include "support/scene_from_text.h"
 #include "visibility/intersector.h"
 

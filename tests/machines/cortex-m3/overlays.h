@@ -21,10 +21,16 @@ struct LoadCall {
 };
 
 DOOR shodo::Status enter_load(const LoadCall& call, shodo::Model*& model);
+DOOR shodo::Status enter_place(shodo::Model& model);
 DOOR std::uint64_t enter_smallest(const shodo::Model& model, bool picture);
 DOOR shodo::Status enter_self_check();
+DOOR shodo::Status enter_solving(shodo::Model& model);
+DOOR shodo::Status enter_drawing(shodo::Model& model, const shodo::Progress& progress);
 DOOR shodo::Status enter_direct(shodo::Model& model, const shodo::Progress& progress);
+DOOR shodo::Status enter_prepare(shodo::Model& model, const shodo::Progress& progress);
 DOOR shodo::Status enter_ambient(shodo::Model& model, const shodo::Progress& progress);
+DOOR shodo::Status enter_mirrors(shodo::Model& model, const shodo::Progress& progress);
+DOOR shodo::Status enter_again(shodo::Model& model, const shodo::Progress& progress);
 DOOR shodo::Status enter_map(shodo::Model& model, const shodo::Progress& progress);
 DOOR shodo::Status enter_draw(shodo::Model& model, const shodo::Progress& progress, const shodo::LineSink& sink);
 
