@@ -69,10 +69,10 @@ bool Intersector::take_flags(Arena& arena) {
   return !features::aims(mode_) || flags_.fill(*scene_, mode_ == FlagMode::kScene, arena);
 }
 
-bool Intersector::start(Arena& arena) {
+bool Intersector::start(Arena& arena, Facets facets) {
   if (!features::aims(mode_)) return true;
   if (!flags_stay_ && !flags_.fill(*scene_, mode_ == FlagMode::kScene, arena)) return false;
-  if (!blockers_.build(*geometry_, arena)) return false;
+  if (!blockers_.build(*geometry_, arena, facets)) return false;
   const std::size_t count = blockers_.facets().size();
   if (!arena.take("possible blockers", count, wide_)) return false;
   if (!arena.take("possible blockers of a pair", count, narrow_)) return false;
@@ -356,9 +356,11 @@ Hit Intersector::nearest(const LatticePoint& p, const LatticeVector& direction, 
 
 void Intersector::offer(const Facet& facet, const LatticePoint& p, const LatticeVector& direction,
                         Nearest& best) const {
+  const LatticePoint end = p + direction;
   LatticeBox around = box_of(p);
-  around.include(p + direction);
+  around.include(end);
   if (apart(around, facet.box)) return;
+  if (facet.tilted == 0 && !passes_flat(facet, p, {end.x - p.x, end.y - p.y, end.z - p.z})) return;
   for (std::uint32_t t = facet.first; t < facet.first + facet.count; ++t) {
     best.offer(geometry_->triangles[t], t, p, direction);
   }

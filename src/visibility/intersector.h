@@ -53,7 +53,7 @@ class Intersector {
 
   /// Builds what finds blockers, as scratch of a stage that calls finish() before the arena is released. False: the
   /// arena is too small.
-  bool start(Arena& arena);
+  bool start(Arena& arena, Facets facets = Facets::kPairs);
   void finish();
   /// Whether aims find anything: between start() and finish(), flags not off.
   bool seeking() const { return features::kAims && started_; }
