@@ -7,7 +7,7 @@ Status measure_planes(const SolvedPatches& solved, const Options& options, Inter
   if (!take_plane_maps(solved.scene, arena, maps)) return arena.refused();
   const ArenaScratch scratch(arena);
   const IntersectorScratch seeking(intersector);
-  if (!intersector.start(arena, Facets::kWhole)) return arena.refused();
+  if (!intersector.start(arena)) return arena.refused();
   const auto segments = [&] {
     return intersector.segments(LightSet::kDirect) + intersector.segments(LightSet::kAmbient);
   };

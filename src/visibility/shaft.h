@@ -22,6 +22,8 @@ class Shaft {
   /// `direction`: of lattice_direction(), its largest component is the size of the cube.
   static Shaft along(const LatticeBox& a, const LatticeVector& direction);
 
+  const LatticeBox& from() const { return a_; }
+  const LatticeBox& to() const { return b_; }
   /// True if no segment from A to B meets the box, which may be flat in the way of facet_box().
   bool misses(const LatticeBox& box) { return apart(around_, box) || beyond_a_line(box); }
 
