@@ -2,7 +2,7 @@
 //
 // visibility/intersector.h answers for any two groups of points, from the root of its tree. Links are so many, and so
 // short of segments, that this is worth a structure of its own. Everything rough is in 32-bit integers:
-//   - what may meet the hull of two nodes' boxes is found by masks (ambient/facet_masks.h). What can block between them
+//   - what may meet the hull of two nodes' boxes is found by masks (visibility/facet_masks.h). What can block between them
 //     are those that meet the common box of their boxes and aren't beyond a line of their hull (ambient/lean_shaft.h).
 //     With flags off there are no masks; whether that list would be empty is found facet by facet, and agrees. Most
 //     often it isn't, and what stood between two nodes before tells so.
@@ -19,9 +19,9 @@
 #include <cstdint>
 #include <span>
 
-#include "ambient/facet_masks.h"
 #include "ambient/lean_segment.h"
 #include "base/arena.h"
+#include "visibility/facet_masks.h"
 #include "visibility/intersector.h"
 #include "shodo/options.h"
 #include "visibility/lattice_box.h"

@@ -236,7 +236,7 @@ Status light_directly(const Scene& scene, const Geometry& geometry, std::span<co
   }
   const ArenaScratch scratch(arena);
   const IntersectorScratch seeking(intersector);
-  if (!intersector.start(arena)) return arena.refused();
+  if (!intersector.start(arena, Facets::kWhole) || !intersector.take_masks(arena)) return arena.refused();
   Sources sources(scene, geometry, intersector, options.tiers);
   const Status status = sources.prepare(arena);
   if (!status.done()) return status;

@@ -148,7 +148,12 @@ bool own_facets_miss(const Geometry& geometry, const Emitter& emitter, const Lat
   const LatticePoint lowest{plane.n.x > 0 ? samples.low[0] : samples.high[0],
                             plane.n.y > 0 ? samples.low[1] : samples.high[1],
                             plane.n.z > 0 ? samples.low[2] : samples.high[2]};
-  return plane.side(lowest) > emitter.own_height;
+  return own_facets_miss(geometry, emitter, lowest);
+}
+
+bool own_facets_miss(const Geometry& geometry, const Emitter& emitter, const LatticePoint& sample) {
+  if (emitter.own_triangle == kNone) return false;
+  return geometry.triangles[emitter.own_triangle].side(sample) > emitter.own_height;
 }
 
 void place_ends(const Scene& scene, const Geometry& geometry, Emitters& emitters, std::uint32_t e,

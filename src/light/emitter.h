@@ -80,6 +80,8 @@ LatticePoint segment_end(const Scene& scene, const Geometry& geometry, const Emi
 
 /// Whether no segment from samples in this box to the face's ends is blocked by a facet of the face's own polyhedron.
 bool own_facets_miss(const Geometry& geometry, const Emitter& emitter, const LatticeBox& samples);
+/// The same for one sample.
+bool own_facets_miss(const Geometry& geometry, const Emitter& emitter, const LatticePoint& sample);
 
 /// Fills the ends of emitters.faces[e] from `first_end` on, and its box.
 void place_ends(const Scene& scene, const Geometry& geometry, Emitters& emitters, std::uint32_t e,

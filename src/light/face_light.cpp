@@ -48,6 +48,12 @@ struct FaceLight::Face {
 struct FaceLight::Batch {
   Face face[kFacesAtOnce];
   std::uint32_t count = 0;
+  double given = -1;     // as in look(): shares are found when they are needed
+  LatticeBox box;        // around the ends
+  std::uint32_t own = 0;  // faces (a bit each) whose own polyhedron may be in the way of some sample
+  Aim aim;
+  std::size_t others = 0;  // facets of the aim that are not the polyhedron's own
+  std::uint32_t wanted[kMostInGroup], shadow[kMostInGroup];  // faces, where shares are found later
 };
 
 FaceLight::Tier FaceLight::tier_of(const SubPatchView& view, Face& face) const {
@@ -228,45 +234,94 @@ std::uint32_t end_of(const ReceiverGroup& group, std::uint32_t k) {
   return (index & 1U) + 2 * (index / kGridCuts & 1U);
 }
 
+/// What the segments from sample k to one end of each face found.
+void FaceLight::count_faces(const ReceiverGroup& group, const Batch& batch, std::uint32_t k, std::uint32_t wanted,
+                            std::uint32_t shadow, const LatticePoint* ends, FaceLook& look) const {
+  for_each_bit(wanted, [&](std::uint32_t f, std::uint32_t bit) {
+    const Face& face = batch.face[f];
+    const double factor = face.factor[k];
+    look.tested[k] += factor;
+    if ((shadow & bit) != 0) return;
+    look.arrives[k] += face.panes ? factor * intersector_->panes().pass(group.lattice[k], ends[f]) : factor;
+  });
+}
+
 /// End `e` of every face in one look from each sample that looks at this one.
-void FaceLight::look_at_ends(const SubPatchView& view, const ReceiverGroup& group, const Link& link,
-                             const Batch& batch, const Aim& aim, std::size_t others, std::uint32_t e,
-                             FaceLook& look) const {
+void FaceLight::look_at_ends(const SubPatchView& view, const ReceiverGroup& group, const Link& link, Batch& batch,
+                             bool later, std::uint32_t e, FaceLook& look) const {
   LatticePoint ends[kFacesAtOnce];
   LatticeBox box;
-  std::uint32_t above = 0, own_miss = 0;  // bits of faces; all samples miss own facets
+  std::uint32_t above = 0;  // bits of faces
   for (std::uint32_t f = 0; f < batch.count; ++f) {
     const Face& face = batch.face[f];
     const std::uint32_t end = face.emitter->first_end + e;
     ends[f] = emitters_->lattice_ends[end];
     box.include(ends[f]);
     above |= ends_above(view, face, end, 1) << f;
-    if (others == aim.facets.size() || own_facets_miss(*geometry_, *face.emitter, group.box)) own_miss |= 1U << f;
   }
   for (std::uint32_t k = 0; k < group.count; ++k) {
     if (end_of(group, k) != e && look.reach == FaceReach::kFar) continue;  // near: all samples look at all
-    std::uint32_t wanted = 0;
-    for (std::uint32_t f = 0; f < batch.count; ++f) {
-      if (batch.face[f].factor[k] > 0) wanted |= above & 1U << f;
+    std::uint32_t wanted = above;
+    for (std::uint32_t f = 0; f < batch.count && batch.given < 0; ++f) {
+      if (!(batch.face[f].factor[k] > 0)) wanted &= ~(1U << f);
     }
-    if (wanted == 0) continue;
-    const Segments segments{group.lattice[k], {ends, batch.count}, box};
-    const std::uint32_t shadow =
-        aim.clear() ? 0 : intersector_->shadow(segments, wanted, link, aim, others, wanted & ~own_miss);
-    for (std::uint32_t f = 0; f < batch.count; ++f) {
-      if ((wanted >> f & 1) == 0) continue;
-      const double factor = batch.face[f].factor[k];
-      look.tested[k] += factor;
-      if ((shadow >> f & 1) != 0) continue;
-      look.arrives[k] += batch.face[f].panes ? factor * intersector_->panes().pass(group.lattice[k], ends[f]) : factor;
+    std::uint32_t own = 0, shadow = 0;
+    for_each_bit(wanted & batch.own, [&](std::uint32_t f, std::uint32_t bit) {
+      if (!own_facets_miss(*geometry_, *batch.face[f].emitter, group.lattice[k])) own |= bit;
+    });
+    if (wanted != 0 && (batch.others > 0 || own != 0 || batch.aim.any_triangle)) {
+      const Segments segments{group.lattice[k], {ends, batch.count}, box};
+      shadow = intersector_->shadow(segments, wanted, link, batch.aim, batch.others, own);
     }
+    batch.wanted[k] = wanted;
+    batch.shadow[k] = shadow;
+    if (!later) count_faces(group, batch, k, wanted, shadow, ends, look);
   }
 }
 
-void FaceLight::look_at_faces(const SubPatchView& view, const ReceiverGroup& group, const Link& link, Batch& batch,
-                              const Aim& aim, std::size_t others, FaceLook& look) const {
-  for (std::uint32_t e = 0; e < kFaceEnds; ++e) look_at_ends(view, group, link, batch, aim, others, e, look);
+/// Where each sample sees all faces, or none, their shares don't matter.
+void FaceLight::share_out(const SubPatchView& view, const ReceiverGroup& group, Batch& batch, FaceLook& look) const {
+  bool any = false, all = true;
+  for (std::uint32_t k = 0; k < group.count; ++k) {
+    any = any || batch.shadow[k] != batch.wanted[k];
+    all = all && batch.shadow[k] == 0;
+  }
+  if (any && !all) {
+    find_shares(view, group, batch);
+    for (std::uint32_t k = 0; k < group.count; ++k) {
+      count_faces(group, batch, k, batch.wanted[k], batch.shadow[k], nullptr, look);
+    }
+    return;
+  }
+  for (std::uint32_t k = 0; k < group.count; ++k) {
+    if (batch.wanted[k] == 0) continue;
+    look.tested[k] = batch.given;
+    if (all) look.arrives[k] = batch.given;
+  }
+}
+
+/// The faces of a batch. `last`: no more come; `first`: none came before.
+void FaceLight::look_at_faces(const SubPatchView& view, const ReceiverGroup& group, const Link& link,
+                              const LatticeBox& whole, bool only, Batch& batch, FaceLook& look) const {
+  if (batch.count == 0) return;
+  const Emitter& any = *batch.face[0].emitter;
+  batch.aim = aims_->towards(any.light, link, group.box, batch.box, whole);
+  batch.others = batch.aim.facets.size();
+  if (batch.others > 0) batch.others = intersector_->others_first(batch.aim, scene_->meshes[any.mesh].object);
+  const bool panes = intersector_->panes().any() && intersector_->panes().between(group.box, batch.box);
+  batch.own = 0;
+  for (std::uint32_t f = 0; f < batch.count; ++f) {
+    Face& face = batch.face[f];
+    face.panes = panes;
+    if (batch.others == batch.aim.facets.size() || own_facets_miss(*geometry_, *face.emitter, group.box)) continue;
+    batch.own |= 1U << f;
+  }
+  const bool later = batch.given >= 0 && only && !panes;
+  if (batch.given >= 0 && !later) find_shares(view, group, batch);
+  for (std::uint32_t e = 0; e < kFaceEnds; ++e) look_at_ends(view, group, link, batch, later, e, look);
+  if (later) share_out(view, group, batch, look);
   batch.count = 0;
+  batch.box = {};
 }
 
 double FaceLight::factor_at(const Vec3& point, const Receiver& receiver, std::uint32_t first, std::uint32_t count,
@@ -294,18 +349,36 @@ double FaceLight::factor_at(const Vec3& point, const Receiver& receiver, std::ui
   return sum;
 }
 
-/// All samples get the same share; false: the face looks the other way.
-bool FaceLight::share_out(const SubPatchView& view, const ReceiverGroup& group, double given, Face& face) const {
-  const Emitter& emitter = *face.emitter;
-  double share = given;
-  face.below = emitter.is_area() && view.receiver->height(emitter.centre) < emitter.radius;
-  if (!emitter.is_area()) {
-    if (!(emitter.height(view.centre) > 0)) return false;
-    share = emitter.area * kernel(view.centre, view.receiver->normal, emitter.centre, emitter.normal);
-    if (!(share > 0)) return false;
+/// All samples get the same share of what they receive together.
+void FaceLight::find_shares(const SubPatchView& view, const ReceiverGroup& group, Batch& batch) const {
+  for (std::uint32_t f = 0; f < batch.count; ++f) {
+    Face& face = batch.face[f];
+    const Emitter& emitter = *face.emitter;
+    const double share = emitter.area * kernel(view.centre, view.receiver->normal, emitter.centre, emitter.normal);
+    for (std::uint32_t k = 0; k < group.count; ++k) face.factor[k] = share;
   }
-  for (std::uint32_t k = 0; k < group.count; ++k) face.factor[k] = share;
-  return true;
+}
+
+/// One face to be looked at; false: nothing of it comes.
+bool FaceLight::take_face(const SubPatchView& view, const ReceiverGroup& group, double given, Face& face,
+                          FaceLook& look) const {
+  if (given >= 0) {
+    const bool area = face.emitter->is_area();
+    face.below = area && view.receiver->height(face.emitter->centre) < face.emitter->radius;
+    for (std::uint32_t k = 0; k < group.count && area; ++k) face.factor[k] = given;
+    return area || face.emitter->height(view.centre) > 0;
+  }
+  face.tier = tier_of(view, face);
+  if (face.tier == Tier::kNothing) return false;
+  const FaceReach reach = reach_of(view, *face.emitter);
+  if (reach > look.reach) look.reach = reach;
+  find_factors(view, group, face);
+  bool any = false;
+  for (std::uint32_t k = 0; k < group.count; ++k) {
+    look.factor[k] += face.factor[k];
+    any = any || face.factor[k] > 0;
+  }
+  return any;
 }
 
 FaceLook FaceLight::factors(const SubPatchView& view, const ReceiverGroup& group, FaceReach reach, std::uint32_t first,
@@ -323,59 +396,45 @@ FaceLook FaceLight::factors(const SubPatchView& view, const ReceiverGroup& group
   return look;
 }
 
+/// An area light: its only face.
+void FaceLight::look_at_one(const SubPatchView& view, const ReceiverGroup& group, const Link& link,
+                            const LatticeBox& ends, const LatticeBox& whole, const EndGrid* grid, Face& face,
+                            FaceLook& look) const {
+  look.split = is_split(view, *face.emitter);
+  const LatticeBox& aimed = look.split ? whole : ends;
+  const Aim aim = aims_->towards(face.emitter->light, link, group.box, aimed, whole,
+                                 look.split || !grid->usable() ? nullptr : grid);
+  face.panes = intersector_->panes().any() && intersector_->panes().between(group.box, aimed);
+  look.clear = aim.clear() && !face.panes;
+  if (look.split) {
+    look_at_leaves(view, group, link, face, aim, look);
+  } else {
+    look_at_area(view, group, link, face, aim, look);
+  }
+}
+
 FaceLook FaceLight::look(const SubPatchView& view, const ReceiverGroup& group, const Link& link, std::uint32_t first,
                          std::uint32_t count, const LatticeBox& ends, const LatticeBox& whole,
                          const EndGrid* grid, double given) const {
   FaceLook look;
-  Aim aim;
-  std::size_t others = 0;  // facets of the aim that are not the polyhedron's own
-  bool aimed = false, panes = false, free = false;  // free: all of the polyhedron, shares don't matter
   Batch batch;
+  batch.given = given;
+  bool only = true;
   for (std::uint32_t e = first; e < first + count; ++e) {
     Face& face = batch.face[batch.count];
     face.emitter = &emitters_->faces[e];
-    if (given >= 0) {
-      if (!share_out(view, group, given, face)) continue;
-    } else {
-      face.tier = tier_of(view, face);
-      if (face.tier == Tier::kNothing) continue;
-      const FaceReach reach = reach_of(view, *face.emitter);
-      if (reach > look.reach) look.reach = reach;
-      find_factors(view, group, face);
-      double largest = 0;
-      for (std::uint32_t k = 0; k < group.count; ++k) {
-        look.factor[k] += face.factor[k];
-        if (face.factor[k] > largest) largest = face.factor[k];
-      }
-      if (!(largest > 0)) continue;
+    if (!take_face(view, group, given, face, look)) continue;
+    if (face.emitter->is_area()) {
+      look_at_one(view, group, link, ends, whole, grid, face, look);
+      break;
     }
-    const bool area = face.emitter->is_area();
-    look.split = is_split(view, *face.emitter);  // then the light has no other face
-    if (!aimed) {
-      aim = aims_->towards(face.emitter->light, link, group.box, look.split ? whole : ends, whole,
-                            look.split || grid == nullptr || !grid->usable() ? nullptr : grid);
-      others = aim.facets.size();
-      if (!area && others > 0) others = intersector_->others_first(aim, scene_->meshes[face.emitter->mesh].object);
-      panes = intersector_->panes().any() && intersector_->panes().between(group.box, look.split ? whole : ends);
-    }
-    aimed = true;
-    face.panes = panes;
-    look.clear = aim.clear() && !panes;
-    free = look.clear && given >= 0 && !area;
-    if (free) break;
-    if (look.split) {
-      look_at_leaves(view, group, link, face, aim, look);
-    } else if (area) {
-      look_at_area(view, group, link, face, aim, look);
-    } else if (++batch.count == kFacesAtOnce) {
-      look_at_faces(view, group, link, batch, aim, others, look);
-    }
+    batch.box.include(face.emitter->box);
+    if (++batch.count < kFacesAtOnce) continue;
+    only = false;
+    look_at_faces(view, group, link, whole, only, batch, look);
   }
-  if (batch.count > 0) look_at_faces(view, group, link, batch, aim, others, look);
-  for (std::uint32_t k = 0; k < group.count && given >= 0; ++k) {
-    look.factor[k] = given;
-    if (free) look.tested[k] = look.arrives[k] = given;
-  }
+  look_at_faces(view, group, link, whole, only, batch, look);
+  for (std::uint32_t k = 0; k < group.count && given >= 0; ++k) look.factor[k] = given;
   return look;
 }
 

@@ -84,17 +84,24 @@ class FaceLight {
   double pair_kernel(const Vec3& point, const Vec3& normal, const Emitter& emitter, bool odd) const;
   double mean_kernel(const SubPatchView& view, const Emitter& emitter) const;
   void find_factors(const SubPatchView& view, const ReceiverGroup& group, Face& face) const;
-  bool share_out(const SubPatchView& view, const ReceiverGroup& group, double given, Face& face) const;
+  bool take_face(const SubPatchView& view, const ReceiverGroup& group, double given, Face& face,
+                 FaceLook& look) const;
+  void find_shares(const SubPatchView& view, const ReceiverGroup& group, Batch& batch) const;
   static bool is_split(const SubPatchView& view, const Emitter& emitter);
   // What the segments found, added to `look`.
   void look_at_leaves(const SubPatchView& view, const ReceiverGroup& group, const Link& link, const Face& face,
                       const Aim& aim, FaceLook& look) const;
   void look_at_area(const SubPatchView& view, const ReceiverGroup& group, const Link& link, const Face& face,
                     const Aim& aim, FaceLook& look) const;
-  void look_at_faces(const SubPatchView& view, const ReceiverGroup& group, const Link& link, Batch& batch,
-                     const Aim& aim, std::size_t others, FaceLook& look) const;
-  void look_at_ends(const SubPatchView& view, const ReceiverGroup& group, const Link& link, const Batch& batch,
-                    const Aim& aim, std::size_t others, std::uint32_t e, FaceLook& look) const;
+  void look_at_one(const SubPatchView& view, const ReceiverGroup& group, const Link& link, const LatticeBox& ends,
+                   const LatticeBox& whole, const EndGrid* grid, Face& face, FaceLook& look) const;
+  void look_at_faces(const SubPatchView& view, const ReceiverGroup& group, const Link& link, const LatticeBox& whole,
+                     bool only, Batch& batch, FaceLook& look) const;
+  void look_at_ends(const SubPatchView& view, const ReceiverGroup& group, const Link& link, Batch& batch, bool later,
+                    std::uint32_t e, FaceLook& look) const;
+  void count_faces(const ReceiverGroup& group, const Batch& batch, std::uint32_t k, std::uint32_t wanted,
+                   std::uint32_t shadow, const LatticePoint* ends, FaceLook& look) const;
+  void share_out(const SubPatchView& view, const ReceiverGroup& group, Batch& batch, FaceLook& look) const;
   std::uint32_t ends_above(const SubPatchView& view, const Face& face, std::uint32_t first, std::uint32_t ends) const;
 
   const Scene* scene_;

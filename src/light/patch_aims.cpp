@@ -40,11 +40,12 @@ void PatchAims::keep(List& list, const Aim& aim) {
 
 Aim PatchAims::towards(std::uint32_t l, const Link& link, const LatticeBox& from, const LatticeBox& ends,
                        const LatticeBox& whole, const EndGrid* grid) {
-  if (l == last_light_ && grid == last_grid_ && within(from, last_from_)) return last_;
+  if (l == last_light_ && grid == last_grid_ && within(from, last_from_) && within(ends, last_ends_)) return last_;
   last_ = make(l, link, from, ends, whole, grid);
   last_light_ = l;
   last_grid_ = grid;
   last_from_ = from;
+  last_ends_ = ends;
   return last_;
 }
 

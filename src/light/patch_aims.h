@@ -52,10 +52,10 @@ class PatchAims {
   std::span<std::uint32_t> facets_;
   std::uint32_t used_ = 0;
   LatticeBox patch_;
-  // The last aim towards ends, used again from within its box.
+  // The last aim towards ends, used again from within its boxes.
   std::uint32_t last_light_ = kNone;
   const EndGrid* last_grid_ = nullptr;
-  LatticeBox last_from_;
+  LatticeBox last_from_, last_ends_;
   Aim last_;
 };
 

@@ -12,6 +12,7 @@ constexpr double kNear = 2.5;
 /// A cell's diagonal over its distance, at most, for an isotropic light.
 constexpr double kCellAngle = 0.5;
 constexpr std::uint32_t kDepth = 16;
+constexpr double kFaint = 1.0 / 1024;
 
 /// Of the diagonals, and one side, since a triangle's last two corners are one.
 double size_squared(const Vec3* corner) {
@@ -51,6 +52,12 @@ PointLux point_lux(const Scene& scene, const Light& light, const Receiver& recei
   const bool clamped = distance < step;
   if (clamped) distance = step;
   return {intensity(light, away) * cosine * attenuation(light, distance * scene.metres_per_unit), clamped};
+}
+
+bool is_faint(const Scene& scene, const Light& light, const Vec3& point, double lux) {
+  if (!light.aimed) return false;
+  const double metres = length(point - light.position) * scene.metres_per_unit;
+  return lux < kFaint * (light.strength * attenuation(light, metres));
 }
 
 bool near_point(const Light& light, const Receiver& receiver, const Piece& piece, double step) {

@@ -23,6 +23,10 @@ struct PointLux {
 /// I cos / (C + L d + Q d^2), lux; `step` is the lattice step in scene units.
 PointLux point_lux(const Scene& scene, const Light& light, const Receiver& receiver, const Vec3& point, double step);
 
+/// Whether `lux` at a point is next to nothing beside what the light would send there along its axis: how it is shared
+/// out over a sub-patch doesn't matter.
+bool is_faint(const Scene& scene, const Light& light, const Vec3& point, double lux);
+
 /// Whether fixed samples would not do.
 bool near_point(const Light& light, const Receiver& receiver, const Piece& piece, double step);
 

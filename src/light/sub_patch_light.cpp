@@ -95,6 +95,7 @@ class SubPatch {
   void add_to_fine(std::uint32_t l, std::uint32_t k, const Received& received, double correction);
   [[gnu::noinline]] void add_fine();
   bool bent(const Received* received) const;
+  bool faint(std::uint32_t l, const Received* received, bool near) const;
   [[gnu::noinline]] bool all_hidden();
   std::uint32_t hidden_of(std::uint32_t samples) const;
   double colour(std::uint32_t l, std::uint32_t channel) const { return sources_.light(l).colour.c[channel]; }
@@ -152,7 +153,7 @@ void SubPatch::add_point(std::uint32_t l) {
     received[k] = sources_.receive(l, receiver_, probes_.sample[k], near);
   }
   if (!any_arrives(received, probes_.count)) return;
-  if (disagree(received, probes_.count, near) || (!near && bent(received))) {
+  if ((disagree(received, probes_.count, near) || (!near && bent(received))) && !faint(l, received, near)) {
     sample_finely(l, received, near, mean);
     return;
   }
@@ -232,6 +233,15 @@ Received SubPatch::near_mean(std::uint32_t l) const {
     add(group, FaceReach::kVeryNear, [&](std::uint32_t k) { return grid_.weight(group.grid_index[k]) / grid; });
   }
   return mean;
+}
+
+bool SubPatch::faint(std::uint32_t l, const Received* received, bool near) const {
+  if (near || sources_.light(l).kind != LightKind::kPoint) return false;
+  double largest = 0;
+  for (std::uint32_t k = 0; k < probes_.count; ++k) {
+    if (received[k].lux > largest) largest = received[k].lux;
+  }
+  return is_faint(sources_.scene(), sources_.light(l), view_.centre, largest);
 }
 
 bool SubPatch::bent(const Received* received) const {

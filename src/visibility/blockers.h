@@ -1,7 +1,8 @@
 // The triangles that block, in a tree of boxes, so that the few which can come between two places are found fast
 // (paper 3.1; design: the table of possible blockers, refined from mesh to patch to segment; deviation D11).
 //
-// A facet is one triangle of a polygon or two that follow each other. Facets are sorted by median cuts; a node of the
+// A facet is one triangle of a polygon or two that follow each other; where it suits, all of one that fill a rectangle
+// square to an axis, as walls do at whose edges others end. Facets are sorted by median cuts; a node of the
 // implicit tree (children 2 k + 1 and 2 k + 2) holds an even share of them.
 //
 // A triangle blocks a segment only if the ends lie strictly on opposite sides of its plane. For a facet square to an
@@ -23,18 +24,20 @@ namespace shodo {
 struct Facet {
   LatticeBox box;            // facet_box()
   std::uint32_t first = 0;   // triangle
-  std::uint8_t count = 1;    // 1 or 2
+  std::uint8_t count = 1;    // 1 or 2, more of a whole rectangle
   std::uint8_t blocks = 3;   // bit s: in LightSet s
   std::uint8_t tilted = 0;   // 1: not square to an axis
-  std::uint8_t rectangle = 0;  // 1: its two triangles fill its box, square to an axis
+  std::uint8_t rectangle = 0;  // 1: its triangles fill its box, square to an axis
 };
 static_assert(sizeof(Facet) == 32);
 
 /// The box around a facet; flat ones get low = plane + 1, high = plane - 1 along the axis to which they are square.
 LatticeBox facet_box(std::span<const Triangle> triangles, bool& tilted);
-/// Whether two triangles fill their flat box: every corner of theirs is one of the box, and they leave out opposite
-/// ones.
+/// Whether triangles of one polygon fill their flat box: they face one way, so none lies on another, and have its area.
 bool fill_box(std::span<const Triangle> triangles, const LatticeBox& box);
+
+/// What becomes one facet: two triangles at most, or all of a polygon that fill a rectangle.
+enum class Facets : std::uint8_t { kPairs, kWhole };
 
 /// The ends of segments: lattice points and the box around them.
 struct Ends {
@@ -45,7 +48,8 @@ struct Ends {
 class Blockers {
  public:
   /// False: the arena is too small.
-  bool build(const Geometry& geometry, Arena& arena);
+  bool build(const Geometry& geometry, Arena& arena, Facets facets = Facets::kPairs);
+  /// Of pairs; of whole rectangles there are fewer.
   static std::uint32_t facet_count(const Geometry& geometry);
   static std::uint64_t bytes(const Geometry& geometry);
 
@@ -79,6 +83,8 @@ class Blockers {
     std::uint32_t first, end;
   };
   Range range_of(std::uint32_t node) const;
+  std::uint32_t add_facets(const Geometry& geometry, const PolygonTriangles& polygon, Facets facets,
+                           std::uint32_t next);
   void split(const Range& range);
 
   std::span<Facet> facets_;

@@ -10,6 +10,9 @@ namespace shodo {
 
 namespace {
 
+/// Masks ask all facets, 32 at a time; a tree asks few of many.
+constexpr std::uint32_t kMostMasked = 4096;
+
 LatticeBox box_of(const LatticePoint& p) {
   LatticeBox box;
   box.include(p);
@@ -69,10 +72,10 @@ bool Intersector::take_flags(Arena& arena) {
   return !features::aims(mode_) || flags_.fill(*scene_, mode_ == FlagMode::kScene, arena);
 }
 
-bool Intersector::start(Arena& arena) {
+bool Intersector::start(Arena& arena, Facets facets) {
   if (!features::aims(mode_)) return true;
   if (!flags_stay_ && !flags_.fill(*scene_, mode_ == FlagMode::kScene, arena)) return false;
-  if (!blockers_.build(*geometry_, arena)) return false;
+  if (!blockers_.build(*geometry_, arena, facets)) return false;
   const std::size_t count = blockers_.facets().size();
   if (!arena.take("possible blockers", count, wide_)) return false;
   if (!arena.take("possible blockers of a pair", count, narrow_)) return false;
@@ -85,8 +88,26 @@ bool Intersector::start(Arena& arena) {
   return true;
 }
 
+bool Intersector::take_masks(Arena& arena) {
+  const std::uint32_t most = Blockers::facet_count(*geometry_);
+  if (!seeking() || most > kMostMasked) return true;
+  if (!masks_.take(arena, most)) return false;
+  const std::span<const Facet> facets = blockers_.facets();
+  LatticeBox around;
+  for (const Facet& facet : facets) around.include(facet.box);
+  masks_.start(static_cast<std::uint32_t>(facets.size()), around);
+  for (std::uint32_t k = 0; k < facets.size(); ++k) masks_.add(k, facets[k].box);
+  return true;
+}
+
+std::uint64_t Intersector::mask_bytes(const Geometry& geometry, FlagMode mode) {
+  const std::uint32_t most = Blockers::facet_count(geometry);
+  return features::aims(mode) && most <= kMostMasked ? FacetMasks::bytes(most) : 0;
+}
+
 void Intersector::finish() {
   blockers_ = {};
+  masks_ = {};
   if (!flags_stay_) flags_ = {};
   wide_ = narrow_ = {};
   started_ = false;
@@ -98,10 +119,21 @@ std::uint64_t Intersector::bytes(const Geometry& geometry, FlagMode mode) {
   return Blockers::bytes(geometry) + 2 * ((4 * facets + 7) / 8 * 8);
 }
 
+/// visit(facet) for all in the shaft, in an order that the geometry fixes.
+template <class Visit>
+void Intersector::visit(const Shaft& shaft, Visit visit) const {
+  if (!masks_.taken()) return blockers_.visit(shaft, visit);
+  Shaft narrow = shaft;
+  masks_.visit(shaft.from(), shaft.to(), [&](std::uint32_t k) {
+    if (!narrow.misses(blockers_.facets()[k].box)) visit(k);
+    return false;
+  });
+}
+
 Aim Intersector::aim_in(const Shaft& shaft, const Link& link, std::span<std::uint32_t> list) {
   std::uint32_t count = 0;
   const std::uint32_t set = index(link.set);
-  blockers_.visit(shaft, [&](std::uint32_t k) {
+  visit(shaft, [&](std::uint32_t k) {
     if ((blockers_.facets()[k].blocks >> set & 1) != 0) list[count++] = k;
   });
   return {list.first(count), false};
@@ -166,7 +198,7 @@ Aim Intersector::aim_along_among(std::span<const std::uint32_t> facets, const La
 Aim Intersector::gather_along(const LatticeBox& a, const LatticeVector& direction) {
   if (!seeking()) return {};
   std::uint32_t count = 0;
-  blockers_.visit(Shaft::along(a, direction), [&](std::uint32_t k) { wide_[count++] = k; });
+  visit(Shaft::along(a, direction), [&](std::uint32_t k) { wide_[count++] = k; });
   return {wide_.first(count), false};
 }
 
@@ -356,9 +388,11 @@ Hit Intersector::nearest(const LatticePoint& p, const LatticeVector& direction, 
 
 void Intersector::offer(const Facet& facet, const LatticePoint& p, const LatticeVector& direction,
                         Nearest& best) const {
+  const LatticePoint end = p + direction;
   LatticeBox around = box_of(p);
-  around.include(p + direction);
+  around.include(end);
   if (apart(around, facet.box)) return;
+  if (facet.tilted == 0 && !passes_flat(facet, p, {end.x - p.x, end.y - p.y, end.z - p.z})) return;
   for (std::uint32_t t = facet.first; t < facet.first + facet.count; ++t) {
     best.offer(geometry_->triangles[t], t, p, direction);
   }

@@ -5,7 +5,7 @@
 // gets the facets that can come between them (visibility/blockers.h), and most often there are none, so that no segment
 // is needed. Aims are made from the very points at which segments end, so no facet is missed: exact, whatever the
 // order. What blocked last is tried first.
-// Bytes: those of visibility/blockers.h and flags.h and two lists of 4 bytes a facet, from start() to finish().
+// Bytes: those of visibility/blockers.h, flags.h and, where asked for, facet_masks.h, and two lists of 4 bytes a facet, from start() to finish().
 #pragma once
 
 #include <cstdint>
@@ -15,6 +15,7 @@
 #include "shodo/options.h"
 #include "visibility/blockers.h"
 #include "visibility/end_grid.h"
+#include "visibility/facet_masks.h"
 #include "visibility/flags.h"
 #include "visibility/geometry.h"
 #include "visibility/panes.h"
@@ -53,10 +54,13 @@ class Intersector {
 
   /// Builds what finds blockers, as scratch of a stage that calls finish() before the arena is released. False: the
   /// arena is too small.
-  bool start(Arena& arena);
+  bool start(Arena& arena, Facets facets = Facets::kPairs);
   void finish();
   /// Whether aims find anything: between start() and finish(), flags not off.
   bool seeking() const { return features::kAims && started_; }
+  /// After start(): masks find what aims list, not the tree, unless there are too many facets. False: as start().
+  bool take_masks(Arena& arena);
+  static std::uint64_t mask_bytes(const Geometry& geometry, FlagMode mode);
   /// Arena bytes of start() after take_flags().
   static std::uint64_t bytes(const Geometry& geometry, FlagMode mode);
 
@@ -133,6 +137,8 @@ class Intersector {
                              std::span<std::uint32_t> facets, const Aim& aim);
   template <class Miss>
   Aim keep(const Aim& wide, Shaft shaft, Miss misses);
+  template <class Visit>
+  void visit(const Shaft& shaft, Visit visit) const;
   Aim aim_in(const Shaft& shaft, const Link& link, std::span<std::uint32_t> list);
   Aim keep_wide(std::span<const std::uint32_t> facets, Shaft shaft);
   std::span<const Triangle> triangles_of(const Facet& facet) const {
@@ -146,6 +152,7 @@ class Intersector {
   bool started_ = false;
   bool flags_stay_ = false;
   Blockers blockers_;
+  FacetMasks masks_;
   FlagTables flags_;
   std::span<std::uint32_t> wide_, narrow_;
   std::uint64_t segments_[2] = {0, 0};

@@ -1,5 +1,7 @@
 #include "visibility/shaft.h"
 
+#include <utility>
+
 namespace shodo {
 
 Shaft Shaft::along(const LatticeBox& a, const LatticeVector& direction) {
@@ -15,7 +17,7 @@ Shaft Shaft::along(const LatticeBox& a, const LatticeVector& direction) {
 /// A line through a corner of A and the same corner of B bounds both boxes if this corner is the farthest point of each
 /// along the line's normal: the normal's signs must be those of the corner. The normal is square to the way (du, dv)
 /// from the one to the other.
-void Shaft::add_lines(std::uint8_t u, std::uint8_t v) {
+void Shaft::add_lines(std::uint32_t u, std::uint32_t v) {
   const auto low = [](std::int32_t x) { return x >> kSteps; };
   const auto high = [](std::int32_t x) { return (x + (1 << kSteps) - 1) >> kSteps; };
   const std::int32_t a_u[2] = {low(a_.low[u]), high(a_.high[u])}, a_v[2] = {low(a_.low[v]), high(a_.high[v])};
@@ -29,10 +31,8 @@ void Shaft::add_lines(std::uint8_t u, std::uint8_t v) {
     if (rising == (high_u == high_v)) continue;
     const std::int32_t size_u = dv < 0 ? -dv : dv, size_v = du < 0 ? -du : du;
     Line& line = lines_[lines_used_++];
-    line.u = u;
-    line.v = v;
-    line.from_high_u = high_u == 0;
-    line.from_high_v = high_v == 0;
+    line.u = 4 * (high_u != 0 ? u : 3 + u);
+    line.v = 4 * (high_v != 0 ? v : 3 + v);
     line.normal_u = high_u != 0 ? size_u : -size_u;
     line.normal_v = high_v != 0 ? size_v : -size_v;
     // The box's own corner is rounded down, and a flat facet's box may be one step too small: see facet_box().
@@ -49,11 +49,10 @@ void Shaft::find_lines() {
 
 bool Shaft::beyond_a_line(const LatticeBox& box) {
   if (lines_used_ == kNotYet) find_lines();
-  const Line* const end = lines_ + lines_used_;
-  for (const Line* line = lines_; line != end; ++line) {
-    const std::int32_t u = (line->from_high_u ? box.high : box.low)[line->u] >> kSteps;
-    const std::int32_t v = (line->from_high_v ? box.high : box.low)[line->v] >> kSteps;
-    if (line->normal_u * u + line->normal_v * v > line->limit) return true;
+  for (std::uint32_t k = 0; k < lines_used_; ++k) {
+    if (!beyond(lines_[k], box)) continue;
+    if (k > 0) std::swap(lines_[k], lines_[0]);
+    return true;
   }
   return false;
 }

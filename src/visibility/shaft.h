@@ -9,6 +9,7 @@
 // along the direction, which reaches out of the lattice's cube. Stack: 330 bytes.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "visibility/lattice_box.h"
@@ -21,6 +22,8 @@ class Shaft {
   /// `direction`: of lattice_direction(), its largest component is the size of the cube.
   static Shaft along(const LatticeBox& a, const LatticeVector& direction);
 
+  const LatticeBox& from() const { return a_; }
+  const LatticeBox& to() const { return b_; }
   /// True if no segment from A to B meets the box, which may be flat in the way of facet_box().
   bool misses(const LatticeBox& box) { return apart(around_, box) || beyond_a_line(box); }
 
@@ -29,12 +32,21 @@ class Shaft {
   /// Beyond: normal_u u + normal_v v > limit, u and v of the box's nearest corner.
   struct Line {
     std::int32_t normal_u, normal_v, limit;
-    std::uint8_t u, v;          // axes
-    bool from_high_u, from_high_v;  // which side of the box is the nearest
+    std::uint32_t u, v;  // bounds of a box, by their offset in it
   };
+  static_assert(offsetof(LatticeBox, low) == 0 && offsetof(LatticeBox, high) == 12 && sizeof(LatticeBox) == 24);
+
+  static std::int32_t bound(const LatticeBox& box, std::uint32_t offset) {
+    const auto* byte = reinterpret_cast<const unsigned char*>(&box) + offset;
+    return *reinterpret_cast<const std::int32_t*>(byte) >> kSteps;
+  }
+  static bool beyond(const Line& line, const LatticeBox& box) {
+    return line.normal_u * bound(box, line.u) + line.normal_v * bound(box, line.v) > line.limit;
+  }
+  /// The line that rejects is tried first from then on: neighbours of the box mostly fall to the same.
   bool beyond_a_line(const LatticeBox& box);
   void find_lines();
-  void add_lines(std::uint8_t u, std::uint8_t v);
+  void add_lines(std::uint32_t u, std::uint32_t v);
 
   LatticeBox a_, b_, around_;
   Line lines_[12];

@@ -26,6 +26,7 @@ class FacetMasks {
   /// False: the arena is too small.
   bool take(Arena& arena, std::uint32_t facets);
   static std::uint64_t bytes(std::uint32_t facets);
+  bool taken() const { return !masks_.empty(); }
 
   /// Starts anew; facets lie in the box.
   void start(std::uint32_t facets, const LatticeBox& around);

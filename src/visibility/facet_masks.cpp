@@ -1,4 +1,4 @@
-#include "ambient/facet_masks.h"
+#include "visibility/facet_masks.h"
 
 namespace shodo {
 
