@@ -281,7 +281,7 @@ bool BlockJudge::shoot_all(const Pair& pair, std::uint32_t turn, Shots& shots) {
   const bool crossing = found_.pair.crossing, mixed_splits = !pair.patches && !within(pair.whole, kOfMixed);
   const bool by_four = within(pair.whole, kOfFour) && !crossing, by_eight = within(pair.whole, kOfEight) && !crossing;
   const std::uint32_t rounds = by_four ? 1 : by_eight ? 2 : points;
-  for (std::uint32_t m = 0; m < points && (m < rounds || shots.mixed()); ++m) {
+  for (std::uint32_t m = 0; m < rounds; ++m) {
     for (std::uint32_t k = 0; k < points; ++k) {
       shoot(shots, k, (k ^ m ^ turn) & last);
       if (mixed_splits && shots.mixed()) return false;
