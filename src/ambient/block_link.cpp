@@ -1,5 +1,7 @@
 #include "ambient/block_link.h"
 
+#include "ambient/rough_exchange.h"
+
 namespace shodo {
 
 namespace {
@@ -12,7 +14,7 @@ constexpr double kOfMixed = 0.7;        // of a link as a whole, where some are 
 constexpr double kOfDisc = 0.25;        // of the disc's form factor between patches
 constexpr double kOfDiscBlocks = 0.3;   // the same between blocks
 constexpr double kSeriesShare = 0.5;    // the part of REL that a series may use
-constexpr double kMostNearError = 0.05;
+constexpr double kMostNearError = 0.1;
 constexpr double kMostRough = 5e-3;     // error of v beyond which geometry is as exact as --tiers says
 constexpr double kDiscError = 0.2;      // of the disc's form factor, for the row's sum
 
@@ -154,8 +156,12 @@ Step BlockJudge::decide(const RowSide& side, std::uint32_t j) {
 
 /// The exchange without shadows; false: there is none.
 bool BlockJudge::measure(const RowSide& side, const Pair& pair) {
-  const LinkSeries& series = pair.series;
+  LinkSeries series = pair.series;
   const double roots = surfaces_.root_area[node_] * surfaces_.root_area[pair.j];
+  if (series.kind != LinkKind::kSeries && !pair.near && placed_.kind != PlaceKind::kOdd) {
+    const PlacedSide other = tools_.places.side(pair.j, place_);
+    if (other.kind != PlaceKind::kOdd) series.value = rough_exchange(placed_, other);
+  }
   const double error = series.kind == LinkKind::kSeries ? series.error : kDiscError * series.value;
   found_.pair = {series.value * roots, error * roots, series.kind == LinkKind::kCrossing};
   const bool always = !(options_.tiers > 0);

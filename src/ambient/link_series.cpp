@@ -78,15 +78,6 @@ struct Moments {
   }
 };
 
-/// Mean of the part of a height that is positive, where corners are `extent` above and below the centre's.
-std::int32_t height_in_front(std::int32_t height, std::int32_t extent) {
-  if (height >= extent) return height;
-  const std::int32_t top = height + extent;
-  return top <= 0 || extent == 0 ? 0 : static_cast<std::int32_t>(static_cast<std::uint32_t>(top) *
-                                                                  static_cast<std::uint32_t>(top) /
-                                                                  (4 * static_cast<std::uint32_t>(extent)));
-}
-
 std::int32_t component(const LatticePoint& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
 /// Bit k: all cached samples of the mesh have the same coordinate along axis k.
@@ -164,6 +155,14 @@ MeshPlace place_node(const Surfaces& s, std::uint32_t node) {
 }
 
 }  // namespace
+
+std::int32_t mean_in_front(std::int32_t height, std::int32_t extent) {
+  if (height >= extent) return height;
+  const std::int32_t top = height + extent;
+  return top <= 0 || extent == 0 ? 0 : static_cast<std::int32_t>(static_cast<std::uint32_t>(top) *
+                                                                  static_cast<std::uint32_t>(top) /
+                                                                  (4 * static_cast<std::uint32_t>(extent)));
+}
 
 std::uint64_t Places::bytes(const Scene& scene, const Rules& rules) {
   if (!rules.blocks) return 0;
@@ -333,7 +332,7 @@ LinkSeries Places::series(const PlacedSide& i, std::uint32_t j, std::uint32_t pl
   if (crossing || 8 * axes_13 > 3 * squared_13 || squared_13 == 0) {
     link.kind = crossing ? LinkKind::kCrossing : LinkKind::kClose;
     // A disc's form factor, cos cos A / (pi r^2 + A), with the larger end for A and what of each is in front.
-    const std::int32_t hh = height_in_front(over_i, extent_j) * height_in_front(over_j, extent_i);
+    const std::int32_t hh = mean_in_front(over_i, extent_j) * mean_in_front(over_j, extent_i);
     const std::int32_t larger = axes_i > axes_j ? axes_i : axes_j;
     const double r2 = static_cast<double>(squared) , disc = r2 + 0.6 * static_cast<double>(larger);
     link.most = weights * scale / disc;

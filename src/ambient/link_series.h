@@ -71,6 +71,9 @@ struct LinkSeries {
   double vary_i = 0, vary_j = 0;  // mean squares of the variation over i, and over j, relative (kSeries)
 };
 
+/// Mean of the part of a height that is positive, where corners are `extent` above and below the centre's.
+std::int32_t mean_in_front(std::int32_t height, std::int32_t extent);
+
 class Places {
  public:
   /// Errors: kMemory.
