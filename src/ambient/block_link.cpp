@@ -1,5 +1,7 @@
 #include "ambient/block_link.h"
 
+#include "ambient/rough_exchange.h"
+
 namespace shodo {
 
 namespace {
@@ -7,12 +9,12 @@ namespace {
 using Step = LinkWalk::Step;
 
 // Relative errors, chosen on the paper's rooms: errors and costs of others differ by less than a fifth.
-constexpr double kOfFour = 0.2, kOfEight = 0.1, kOfSixteen = 0.05;  // of a fraction, where so many segments agree
+constexpr double kOfTwo = 0.4, kOfFour = 0.2, kOfEight = 0.1, kOfSixteen = 0.05;  // of a fraction, where so many segments agree
 constexpr double kOfMixed = 0.7;        // of a link as a whole, where some are blocked
 constexpr double kOfDisc = 0.25;        // of the disc's form factor between patches
 constexpr double kOfDiscBlocks = 0.3;   // the same between blocks
 constexpr double kSeriesShare = 0.5;    // the part of REL that a series may use
-constexpr double kMostNearError = 0.05;
+constexpr double kMostNearError = 0.1;
 constexpr double kMostRough = 5e-3;     // error of v beyond which geometry is as exact as --tiers says
 constexpr double kDiscError = 0.2;      // of the disc's form factor, for the row's sum
 
@@ -154,8 +156,12 @@ Step BlockJudge::decide(const RowSide& side, std::uint32_t j) {
 
 /// The exchange without shadows; false: there is none.
 bool BlockJudge::measure(const RowSide& side, const Pair& pair) {
-  const LinkSeries& series = pair.series;
+  LinkSeries series = pair.series;
   const double roots = surfaces_.root_area[node_] * surfaces_.root_area[pair.j];
+  if (series.kind != LinkKind::kSeries && !pair.near && placed_.kind != PlaceKind::kOdd) {
+    const PlacedSide other = tools_.places.side(pair.j, place_);
+    if (other.kind != PlaceKind::kOdd) series.value = rough_exchange(placed_, other);
+  }
   const double error = series.kind == LinkKind::kSeries ? series.error : kDiscError * series.value;
   found_.pair = {series.value * roots, error * roots, series.kind == LinkKind::kCrossing};
   const bool always = !(options_.tiers > 0);
@@ -170,6 +176,9 @@ bool BlockJudge::measure(const RowSide& side, const Pair& pair) {
   }
   return found_.pair.geometric > 0;
 }
+
+/// Whether a pair in half shade must be split.
+bool BlockJudge::mixed_splits(const Pair& pair) const { return !pair.patches && !within(pair.whole, kOfMixed); }
 
 struct BlockJudge::Shots {
   Shots(const LatticePoint* i, const LatticePoint* j) : at_i(i), at_j(j) {}
@@ -215,10 +224,22 @@ void BlockJudge::shoot(Shots& shots, std::uint32_t k, std::uint32_t l) {
 
 /// The visible fraction by one segment: a shadow, or nothing, is as far as the pair matters.
 void BlockJudge::look_once(std::uint32_t k, std::uint32_t j, std::uint32_t l) {
-  Sight& sight = tools_.sight;
-  const LatticePoint &p = surfaces_.samples(node_)[k], &q = surfaces_.samples(j)[l];
-  if (!sight.meets(p, q) && sight.clear(own_box(false), box_of(j, false))) return;
-  found_.visible = fraction_of(sight.settle(p, q, link_, intersector_) ? 0 : 1, 1);
+  const bool blocked = tools_.sight.blocked_alone(surfaces_.samples(node_)[k], surfaces_.samples(j)[l], link_, intersector_);
+  found_.visible = fraction_of(blocked ? 0 : 1, 1);
+}
+
+/// By two segments between opposite samples, or the order to split.
+Step BlockJudge::look_twice(const Pair& pair, std::uint32_t turn) {
+  const std::uint32_t last = surfaces_.cached_points - 1;
+  std::uint32_t free = 0, all = 0;
+  for (std::uint32_t k = 0; k <= last; k += 3) {
+    const LatticePoint &p = surfaces_.samples(node_)[k], &q = surfaces_.samples(pair.j)[k ^ turn];
+    free += tools_.sight.blocked_alone(p, q, link_, intersector_) ? 0 : 1;
+    ++all;
+  }
+  if (free > 0 && free < all && mixed_splits(pair)) return pair.split;
+  found_.visible = fraction_of(free, all);
+  return Step::kLink;
 }
 
 /// The same, and what panes between the two let through.
@@ -259,6 +280,7 @@ Step BlockJudge::look(const Pair& pair) {
     look_once(turn, j, hash >> 2 & last);
     return Step::kLink;
   }
+  if (within(pair.whole, kOfTwo) && !crossing) return look_twice(pair, turn);
   Shots shots = shots_of(pair);
   std::uint32_t first = 0;
   while (first < points * points && !shots.faces(first & last, (first ^ first / points ^ turn) & last)) ++first;
@@ -278,13 +300,13 @@ Step BlockJudge::look(const Pair& pair) {
 /// All rounds that the pair is worth; false if it is to be split.
 bool BlockJudge::shoot_all(const Pair& pair, std::uint32_t turn, Shots& shots) {
   const std::uint32_t points = surfaces_.cached_points, last = points - 1;
-  const bool crossing = found_.pair.crossing, mixed_splits = !pair.patches && !within(pair.whole, kOfMixed);
+  const bool crossing = found_.pair.crossing, splits = mixed_splits(pair);
   const bool by_four = within(pair.whole, kOfFour) && !crossing, by_eight = within(pair.whole, kOfEight) && !crossing;
   const std::uint32_t rounds = by_four ? 1 : by_eight ? 2 : points;
-  for (std::uint32_t m = 0; m < points && (m < rounds || shots.mixed()); ++m) {
+  for (std::uint32_t m = 0; m < rounds; ++m) {
     for (std::uint32_t k = 0; k < points; ++k) {
       shoot(shots, k, (k ^ m ^ turn) & last);
-      if (mixed_splits && shots.mixed()) return false;
+      if (splits && shots.mixed()) return false;
     }
   }
   found_.visible = fraction_of(shots.free, shots.all);

@@ -84,10 +84,12 @@ class BlockJudge {
   bool varies_too_much(Pair& pair) const;
   bool measure(const RowSide& side, const Pair& pair);
   LinkWalk::Step look(const Pair& pair);
+  LinkWalk::Step look_twice(const Pair& pair, std::uint32_t turn);
   void look_once(std::uint32_t k, std::uint32_t j, std::uint32_t l);
   LinkWalk::Step look_through_panes(const Pair& pair, std::uint32_t hash);
   bool in_front(std::uint32_t node, std::uint32_t sample, std::uint32_t other, std::uint32_t place) const;
   Shots shots_of(const Pair& pair) const;
+  bool mixed_splits(const Pair& pair) const;
   bool shoot_all(const Pair& pair, std::uint32_t turn, Shots& shots);
   void shoot(Shots& shots, std::uint32_t k, std::uint32_t l);
 

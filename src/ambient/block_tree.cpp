@@ -83,12 +83,15 @@ bool TreeWalk::next() {
   return true;
 }
 
+std::uint32_t mesh_nodes(const Scene& scene, const Mesh& mesh, const Rules& rules) {
+  const TreeKind kind = tree_kind(scene, mesh, rules);
+  const std::uint32_t patches = mesh.patch_count();
+  return kind == TreeKind::kNone ? patches : kind == TreeKind::kFlat ? patches + 1 : 2 * patches - 1;
+}
+
 std::uint32_t block_count(const Scene& scene, const Rules& rules) {
   std::uint32_t blocks = 0;
-  for (const Mesh& mesh : scene.meshes) {
-    const TreeKind kind = tree_kind(scene, mesh, rules);
-    blocks += kind == TreeKind::kNone ? 0 : kind == TreeKind::kFlat ? 1 : mesh.patch_count() - 1;
-  }
+  for (const Mesh& mesh : scene.meshes) blocks += mesh_nodes(scene, mesh, rules) - mesh.patch_count();
   return blocks;
 }
 

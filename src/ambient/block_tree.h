@@ -73,6 +73,8 @@ class TreeWalk {
   bool started_ = false;
 };
 
+/// Patches and blocks of a mesh.
+std::uint32_t mesh_nodes(const Scene& scene, const Mesh& mesh, const Rules& rules);
 /// Blocks of the whole scene.
 std::uint32_t block_count(const Scene& scene, const Rules& rules);
 /// Patches and blocks: what the ambient stage has arrays over.

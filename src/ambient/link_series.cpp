@@ -11,6 +11,7 @@ constexpr std::int32_t kThirdOf2To16 = 21845;
 constexpr double kCurved = 0.1;  // times q^2: what ends right opposite each other vary all the same
 constexpr double kRounding = 0x1p-12;  // of heights and ratios, relative to the kernel with both cosines 1
 constexpr double kRoughly = 1.2;  // of close ends, what the disc lacks in the mean
+constexpr double kMostTwist = 0.25;  // of the normal part of d, of the root of the area of a x b
 constexpr std::int32_t kFlat = 8;   // heights that rounding may make
 
 std::int32_t magnitude(std::int32_t x) { return x < 0 ? -x : x; }
@@ -25,19 +26,21 @@ void put(std::int32_t* to, const Vec3& v) {
 
 std::int32_t product(const std::int32_t* x, const std::int32_t* y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
 
+std::int32_t rounded_up(std::int32_t x, int shift) { return (x + (1 << shift) - 1) >> shift; }
+
 /// Half axis of `count` patches.
 void stretch(const std::int32_t* axis, std::uint32_t count, std::int32_t* to) {
   const std::int32_t times = static_cast<std::int32_t>(count);
   for (int k = 0; k < 3; ++k) to[k] = (axis[k] * times) >> 4;
 }
 
-std::int32_t reach_of(const std::int32_t* a, const std::int32_t* b, bool triangle) {
+std::int32_t reach_of(const std::int32_t* a, const std::int32_t* b, const MeshPlace& place) {
   std::int32_t reach = 0;
   for (int k = 0; k < 3; ++k) {
     const std::int32_t along = magnitude(a[k]) + magnitude(b[k]);
     if (along > reach) reach = along;
   }
-  return triangle ? 2 * reach : reach;
+  return place.kind == PlaceKind::kTriangle ? 2 * reach : reach + place.extra;
 }
 
 /// Everything of one end, shifted.
@@ -54,9 +57,9 @@ struct End {
     climb_b = product(other_normal, b) >> 14;
   }
   /// How far the corners stand off the centre's height.
-  std::int32_t extent(PlaceKind kind) const {
+  std::int32_t extent(PlaceKind kind, std::int32_t extra) const {
     const std::int32_t sum = magnitude(climb_a) + magnitude(climb_b);
-    return kind == PlaceKind::kTriangle ? 2 * sum : sum;
+    return kind == PlaceKind::kTriangle ? 2 * sum : sum + extra;
   }
 };
 
@@ -75,15 +78,6 @@ struct Moments {
   }
 };
 
-/// Mean of the part of a height that is positive, where corners are `extent` above and below the centre's.
-std::int32_t height_in_front(std::int32_t height, std::int32_t extent) {
-  if (height >= extent) return height;
-  const std::int32_t top = height + extent;
-  return top <= 0 || extent == 0 ? 0 : static_cast<std::int32_t>(static_cast<std::uint32_t>(top) *
-                                                                  static_cast<std::uint32_t>(top) /
-                                                                  (4 * static_cast<std::uint32_t>(extent)));
-}
-
 std::int32_t component(const LatticePoint& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
 /// Bit k: all cached samples of the mesh have the same coordinate along axis k.
@@ -98,6 +92,17 @@ std::uint8_t flat_axes(const Surfaces& s, std::uint32_t k) {
   return static_cast<std::uint8_t>(flat);
 }
 
+/// Whether a mesh's nodes have places of their own.
+bool differs(const Scene& scene, const Mesh& mesh) {
+  return mesh.kind != MeshKind::kTriangle && (shape_count(scene, mesh) != 1 || mesh.kind == MeshKind::kGrid ||
+                                              shape_of(cell_piece(scene, mesh, 0)).even == 0);
+}
+
+/// From the centre of a quadrilateral to its centroid.
+Vec3 centroid_offset(const PatchShape& shape) {
+  return (shape.alpha * (1.0 / 3)) * shape.a + (shape.beta * (1.0 / 3)) * shape.b;
+}
+
 MeshPlace place_mesh(const Surfaces& s, std::uint32_t k) {
   MeshPlace place;
   place.flat = flat_axes(s, k);
@@ -110,7 +115,7 @@ MeshPlace place_mesh(const Surfaces& s, std::uint32_t k) {
   put(n, static_cast<double>(kOne) * normal);
   for (int c = 0; c < 3; ++c) place.normal[c] = s.planar[k] != 0 ? static_cast<std::int16_t>(n[c]) : std::int16_t{0};
   const bool triangle = mesh.kind == MeshKind::kTriangle;
-  const bool parallelogram = shape_count(*s.scene, mesh) == 1 && shape.outline == Outline::kQuad && shape.even != 0;
+  const bool parallelogram = !differs(*s.scene, mesh) && shape.outline == Outline::kQuad && shape.even != 0;
   if (!triangle && !parallelogram) return place;
   if (s.planar[k] == 0 || mesh.nu > 0xffff || mesh.nv > 0xffff) return place;
   place.kind = triangle ? PlaceKind::kTriangle : PlaceKind::kQuad;
@@ -120,12 +125,50 @@ MeshPlace place_mesh(const Surfaces& s, std::uint32_t k) {
   return place;
 }
 
+/// A quadrilateral node with half axes of its own; kOdd if it is concave or much twisted.
+MeshPlace place_node(const Surfaces& s, std::uint32_t node) {
+  MeshPlace place;
+  const PatchShape& shape = s.shape(node);
+  const Vec3 normal = s.patch(node).normal;
+  if (shape.outline != Outline::kQuad) return place;
+  const double twist = dot(normal, shape.d);
+  if (twist * twist > kMostTwist * kMostTwist * length(cross(shape.a, shape.b))) return place;
+  const double steps = s.geometry->lattice.steps_per_unit;
+  const double a2 = shape.alpha * shape.alpha, b2 = shape.beta * shape.beta;
+  const double of_a = square_root((1 + b2) * (1 - a2 / 3)), of_b = square_root((1 + a2) * (1 - b2 / 3));
+  const Vec3 shift = centroid_offset(shape);
+  double farthest = 0;
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    const double x = k % 2 == 0 ? -1 : 1, y = k / 2 == 0 ? -1 : 1;
+    const Vec3 off = shape.offset(x, y) - shift - ((x * of_a) * shape.a + (y * of_b) * shape.b);
+    const double squared = length_squared(off);
+    if (squared > farthest) farthest = squared;
+  }
+  place.kind = PlaceKind::kOwn;
+  place.extra = rounded(steps * square_root(farthest)) + 1;
+  std::int32_t n[3];
+  put(n, static_cast<double>(kOne) * normal);
+  for (int c = 0; c < 3; ++c) place.normal[c] = static_cast<std::int16_t>(n[c]);
+  put(place.a, (16 * steps * of_a) * shape.a);
+  put(place.b, (16 * steps * of_b) * shape.b);
+  return place;
+}
+
 }  // namespace
+
+std::int32_t mean_in_front(std::int32_t height, std::int32_t extent) {
+  if (height >= extent) return height;
+  const std::int32_t top = height + extent;
+  return top <= 0 || extent == 0 ? 0 : static_cast<std::int32_t>(static_cast<std::uint32_t>(top) *
+                                                                  static_cast<std::uint32_t>(top) /
+                                                                  (4 * static_cast<std::uint32_t>(extent)));
+}
 
 std::uint64_t Places::bytes(const Scene& scene, const Rules& rules) {
   if (!rules.blocks) return 0;
-  return (sizeof(NodePlace) * node_count(scene, rules) + 7) / 8 * 8 +
-         (sizeof(MeshPlace) * scene.meshes.size() + 7) / 8 * 8;
+  std::uint64_t places = scene.meshes.size();
+  for (const Mesh& mesh : scene.meshes) places += differs(scene, mesh) ? mesh_nodes(scene, mesh, rules) : 0;
+  return (sizeof(NodePlace) * node_count(scene, rules) + 7) / 8 * 8 + sizeof(MeshPlace) * places;
 }
 
 Status Places::take(Arena& arena, const Surfaces& s, const Rules& rules) {
@@ -135,12 +178,25 @@ Status Places::take(Arena& arena, const Surfaces& s, const Rules& rules) {
   }
   surfaces_ = &s;
   const double steps = s.geometry->lattice.steps_per_unit;
+  std::uint32_t own = 0;
+  for (std::uint32_t k = 0; k < s.mesh_at.size(); ++k) {
+    if (differs(*s.scene, s.scene->meshes[s.mesh_at[k]])) own += s.mesh_begin[k + 1] - s.mesh_begin[k];
+  }
+  if (!arena.take("places of single nodes", own, own_)) return arena.refused();
+  own = 0;
   for (std::uint32_t k = 0; k < s.mesh_at.size(); ++k) {
     meshes_[k] = place_mesh(s, k);
+    if (differs(*s.scene, s.scene->meshes[s.mesh_at[k]])) {
+      meshes_[k].own = own;
+      own += s.mesh_begin[k + 1] - s.mesh_begin[k];
+    }
     for (std::uint32_t node = s.mesh_begin[k]; node < s.mesh_begin[k + 1]; ++node) {
       if (!(s.root_area[node] > 0)) continue;
       NodePlace& place = nodes_[node];
-      put(place.centre, steps * s.patch(node).centre);
+      const bool single = meshes_[k].own != kNone;
+      if (single) own_[meshes_[k].own + (node - s.mesh_begin[k])] = place_node(s, node);
+      const Vec3 shift = single && s.shape(node).outline == Outline::kQuad ? centroid_offset(s.shape(node)) : Vec3{};
+      put(place.centre, steps * (s.patch(node).centre + shift));
       place.weight = static_cast<float>(s.patch(node).area / s.root_area[node] * steps * square_root(kInversePi));
     }
   }
@@ -149,7 +205,7 @@ Status Places::take(Arena& arena, const Surfaces& s, const Rules& rules) {
 
 void Places::half_axes(std::uint32_t node, const MeshPlace& mesh, std::int32_t* a, std::int32_t* b) const {
   std::uint32_t across = 1, up = 1;  // patches
-  if (surfaces_->is_block(node)) {
+  if (mesh.kind != PlaceKind::kOwn && surfaces_->is_block(node)) {
     const MeshPart& part = surfaces_->block(node).part;
     across = part.across();
     up = mesh.kind == PlaceKind::kTriangle ? across : part.up();
@@ -178,7 +234,11 @@ LatticeBox Places::box(const Surfaces& s, std::uint32_t node, std::uint32_t plac
       put(a, steps * shape.a);
       put(b, steps * shape.b);
       put(d, steps * shape.d);
-      for (int k = 0; k < 3; ++k) half[k] = magnitude(a[k]) + magnitude(b[k]) + magnitude(d[k]);
+      std::int32_t shift[3];
+      put(shift, steps * centroid_offset(shape));
+      for (int k = 0; k < 3; ++k) {
+        half[k] = magnitude(a[k]) + magnitude(b[k]) + magnitude(d[k]) + magnitude(shift[k]);
+      }
     }
   } else {
     std::int32_t a[3], b[3];
@@ -207,13 +267,14 @@ LatticeBox Places::mesh_box(const Surfaces& s, std::uint32_t place) const {
 PlacedSide Places::side(std::uint32_t node, std::uint32_t mesh_place) const {
   PlacedSide side;
   const NodePlace& place = nodes_[node];
-  const MeshPlace& mesh = meshes_[mesh_place];
+  const MeshPlace& mesh = place_of(node, mesh_place);
   half_axes(node, mesh, side.a, side.b);
   for (int k = 0; k < 3; ++k) {
     side.centre[k] = place.centre[k];
     side.normal[k] = mesh.normal[k];
   }
-  side.reach = reach_of(side.a, side.b, mesh.kind == PlaceKind::kTriangle);
+  side.reach = reach_of(side.a, side.b, mesh);
+  side.extra = mesh.extra;
   side.weight = static_cast<double>(place.weight);
   side.kind = mesh.kind;
   return side;
@@ -232,13 +293,13 @@ int Places::sign_over(std::uint32_t node, std::uint32_t place, const LatticePoin
 
 LinkSeries Places::series(const PlacedSide& i, std::uint32_t j, std::uint32_t place) const {
   LinkSeries link;
-  const MeshPlace& mesh = meshes_[place];
+  const MeshPlace& mesh = place_of(j, place);
   if (i.kind == PlaceKind::kOdd || mesh.kind == PlaceKind::kOdd) return link;
   const NodePlace& node = nodes_[j];
   std::int32_t a[3], b[3], way[3];
   half_axes(j, mesh, a, b);
   std::uint32_t bits = static_cast<std::uint32_t>(i.reach) |
-                       static_cast<std::uint32_t>(reach_of(a, b, mesh.kind == PlaceKind::kTriangle));
+                       static_cast<std::uint32_t>(reach_of(a, b, mesh));
   for (int k = 0; k < 3; ++k) {
     way[k] = node.centre[k] - i.centre[k];
     bits |= static_cast<std::uint32_t>(magnitude(way[k]));
@@ -250,11 +311,11 @@ LinkSeries Places::series(const PlacedSide& i, std::uint32_t j, std::uint32_t pl
   const std::int32_t over_i = product(i.normal, way) >> 14, over_j = -(product(normal_j, way) >> 14);
   End of_i, of_j;
   of_j.shift(a, b, by, i.normal);
-  const std::int32_t extent_j = of_j.extent(mesh.kind);
+  const std::int32_t extent_j = of_j.extent(mesh.kind, rounded_up(mesh.extra, by));
   link.kind = LinkKind::kAway;
   if (over_i + extent_j < -kFlat) return link;
   of_i.shift(i.a, i.b, by, normal_j);
-  const std::int32_t extent_i = of_i.extent(i.kind);
+  const std::int32_t extent_i = of_i.extent(i.kind, rounded_up(i.extra, by));
   if (over_j + extent_i < -kFlat) return link;
   link.kind = LinkKind::kOdd;  // rounding doesn't tell
   if (over_i + extent_j <= kFlat || over_j + extent_i <= kFlat) return link;
@@ -263,6 +324,7 @@ LinkSeries Places::series(const PlacedSide& i, std::uint32_t j, std::uint32_t pl
   const std::int32_t axes_i = product(of_i.a, of_i.a) + product(of_i.b, of_i.b);
   const std::int32_t axes_j = product(of_j.a, of_j.a) + product(of_j.b, of_j.b);
   const bool crossing = over_i + kFlat < extent_j || over_j + kFlat < extent_i || over_i <= 0 || over_j <= 0;
+  if (crossing && (i.extra | mesh.extra) != 0) return link;
   // q = 4/3 (axes) / r^2
   const std::int32_t axes_13 = ((axes_i >> 1) + (axes_j >> 1)) >> 12, squared_13 = squared >> 13;
   const double scale = std::bit_cast<double>(static_cast<std::uint64_t>(1023 - 2 * by) << 52);  // 4^-by
@@ -270,7 +332,7 @@ LinkSeries Places::series(const PlacedSide& i, std::uint32_t j, std::uint32_t pl
   if (crossing || 8 * axes_13 > 3 * squared_13 || squared_13 == 0) {
     link.kind = crossing ? LinkKind::kCrossing : LinkKind::kClose;
     // A disc's form factor, cos cos A / (pi r^2 + A), with the larger end for A and what of each is in front.
-    const std::int32_t hh = height_in_front(over_i, extent_j) * height_in_front(over_j, extent_i);
+    const std::int32_t hh = mean_in_front(over_i, extent_j) * mean_in_front(over_j, extent_i);
     const std::int32_t larger = axes_i > axes_j ? axes_i : axes_j;
     const double r2 = static_cast<double>(squared) , disc = r2 + 0.6 * static_cast<double>(larger);
     link.most = weights * scale / disc;

@@ -12,9 +12,12 @@
 // of the sum of the squares of all half axes over r^2.
 //
 // A triangle counts as the parallelogram that has its moments: with edges a and b from corner 0, half axes
-// (a - b / 2) / sqrt 6 and b / sqrt 8. Other quadrilaterals, and concave ones, have no place here, nor have
-// pairs so near to each other's plane that rounding hides on which side they are (kOdd).
-// Bytes: 16 a node and 32 a mesh.
+// (a - b / 2) / sqrt 6 and b / sqrt 8. Other quadrilaterals do so too, each node by itself, about its centroid: with
+// the area element 1 + alpha x + beta y, half axes a sqrt((1 + beta^2) (1 - alpha^2 / 3)) and the like for b, which a
+// trapezoid has exactly; how far their corners are from the parallelogram's is known, and what it leaves open is kOdd.
+// Concave and much twisted ones have no place here, nor have pairs so near to each other's plane that rounding hides on
+// which side they are (kOdd).
+// Bytes: 16 a node, 40 a mesh, and 40 a node of meshes whose patches aren't parallelograms or triangles.
 #pragma once
 
 #include <cstdint>
@@ -29,14 +32,17 @@ namespace shodo {
 inline constexpr double kMostSeries = 0.5;    // the largest q for which there is a series
 inline constexpr double kSeriesError = 0.5;   // times q^2
 
-enum class PlaceKind : std::uint8_t { kOdd, kQuad, kTriangle };
+/// kOwn: a node with half axes of its own.
+enum class PlaceKind : std::uint8_t { kOdd, kQuad, kTriangle, kOwn };
 
-/// One mesh: half axes of a patch in 1/16 lattice steps, normal in 1/2^14.
+/// One mesh, or one node: half axes of a patch in 1/16 lattice steps, normal in 1/2^14.
 struct MeshPlace {
   std::int32_t a[3] = {0, 0, 0}, b[3] = {0, 0, 0};
   std::int16_t normal[3] = {0, 0, 0};  // 0 unless planar
   PlaceKind kind = PlaceKind::kOdd;
   std::uint8_t flat = 0;  // bit k: all samples have the same coordinate along axis k
+  std::uint32_t own = kNone;  // of a mesh: the first of its nodes' places, if they have their own
+  std::int32_t extra = 0;     // of a node: no corner is farther from the parallelogram's, lattice steps
 };
 
 /// One node: centre in lattice steps; A / (R sqrt(pi)) in lattice steps.
@@ -44,12 +50,13 @@ struct NodePlace {
   std::int32_t centre[3] = {0, 0, 0};
   float weight = 0;
 };
-static_assert(sizeof(NodePlace) == 16 && sizeof(MeshPlace) == 32, "memory_plan.cpp");
+static_assert(sizeof(NodePlace) == 16 && sizeof(MeshPlace) == 40, "memory_plan.cpp");
 
 /// The receiving end of a row.
 struct PlacedSide {
   std::int32_t centre[3], a[3], b[3], normal[3];  // lattice steps; normal in 1/2^14
   std::int32_t reach;                             // no corner is farther from the centre along any axis
+  std::int32_t extra;                             // MeshPlace
   double weight;
   PlaceKind kind;
 };
@@ -63,6 +70,9 @@ struct LinkSeries {
   double error = 0;        // of v, estimated (kSeries)
   double vary_i = 0, vary_j = 0;  // mean squares of the variation over i, and over j, relative (kSeries)
 };
+
+/// Mean of the part of a height that is positive, where corners are `extent` above and below the centre's.
+std::int32_t mean_in_front(std::int32_t height, std::int32_t extent);
 
 class Places {
  public:
@@ -81,12 +91,17 @@ class Places {
   LinkSeries series(const PlacedSide& i, std::uint32_t j, std::uint32_t place) const;
 
  private:
+  const MeshPlace& place_of(std::uint32_t node, std::uint32_t place) const {
+    const MeshPlace& mesh = meshes_[place];
+    return mesh.own == kNone ? mesh : own_[mesh.own + (node - surfaces_->mesh_begin[place])];
+  }
   /// Half axes of a node of the mesh, in lattice steps.
   void half_axes(std::uint32_t node, const MeshPlace& mesh, std::int32_t* a, std::int32_t* b) const;
 
   const Surfaces* surfaces_ = nullptr;
   std::span<NodePlace> nodes_;
   std::span<MeshPlace> meshes_;
+  std::span<MeshPlace> own_;
 };
 
 }  // namespace shodo

@@ -16,6 +16,7 @@ struct Node {
 };
 
 // Gauss-Legendre on [-1, 1].
+constexpr std::array<Node, 1> kGauss1{{{0, 2}}};
 constexpr std::array<Node, 2> kGauss2{{{-0.57735026918962576, 1}, {0.57735026918962576, 1}}};
 constexpr std::array<Node, 3> kGauss3{
     {{-0.77459666924148338, 5.0 / 9}, {0, 8.0 / 9}, {0.77459666924148338, 5.0 / 9}}};
@@ -105,22 +106,27 @@ Cell descend(const Cell& root, std::uint32_t path, std::uint32_t depth) {
   return cell;
 }
 
+/// The integral by one of the rules, each finer than the last.
+double by_rule(const Look& look, const Cell& cell, std::uint32_t rule) {
+  if (cell.corners == 3) {
+    return rule == 0   ? over_triangle(look, cell, {}, 1)
+           : rule == 1 ? over_triangle(look, cell, kTriangle3, 0)
+                       : over_triangle(look, cell, kTriangle7, 0.225);
+  }
+  constexpr std::span<const Node> kRules[] = {kGauss1, kGauss2, kGauss3, kGauss4};
+  return over_quad(look, cell, kRules[rule]);
+}
+
 /// The best value of a cell that two rules agree on, or the best there is; the difference is the error.
 NearFactor measure(const Look& look, const Cell& cell, double tolerance) {
-  double coarse, fine;
-  if (cell.corners == 3) {
-    coarse = over_triangle(look, cell, kTriangle3, 0);
-    fine = over_triangle(look, cell, kTriangle7, 0.225);
-  } else {
-    coarse = over_quad(look, cell, kGauss2);
-    fine = over_quad(look, cell, kGauss3);
-    const double apart = fine > coarse ? fine - coarse : coarse - fine;
-    if (apart > tolerance) {
-      coarse = fine;
-      fine = over_quad(look, cell, kGauss4);
-    }
+  const std::uint32_t last = cell.corners == 3 ? 2 : 3;
+  NearFactor part{by_rule(look, cell, 0), 0};
+  for (std::uint32_t rule = 1; rule <= last; ++rule) {
+    const double finer = by_rule(look, cell, rule);
+    part = {finer, magnitude(finer - part.exchange)};
+    if (part.error <= tolerance) break;
   }
-  return {fine, fine > coarse ? fine - coarse : coarse - fine};
+  return part;
 }
 
 /// Adds the integral over a cell, refined to the tolerance; a cell of each level may use half of its parent's, since

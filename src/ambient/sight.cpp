@@ -195,27 +195,25 @@ void Sight::remember(std::uint32_t facet) {
   recent_[0] = static_cast<std::uint16_t>(facet);
 }
 
-bool Sight::meets(const LatticePoint& p, const LatticePoint& q) {
-  once_tests_ = 0;
-  once_found_ = kNone;
-  if (!lists_ || !tested_) return false;
-  const LeanSegment segment(p, q);
-  once_found_ = recent_blocker(segment, p, q, once_tests_);
-  if (once_found_ != kNone) return true;
-  return masks_.visit(box_of(p), box_of(q), [&](std::uint32_t f) {
-    if (!segment.may_meet(lean_[f])) return false;
-    once_tests_ += facets_[f].count;
-    if (!hits(f, p, q)) return false;
-    once_found_ = f;
-    return true;
-  });
-}
-
-bool Sight::settle(const LatticePoint& p, const LatticePoint& q, const Link& link, Intersector& intersector) {
+bool Sight::blocked_alone(const LatticePoint& p, const LatticePoint& q, const Link& link, Intersector& intersector) {
   if (!lists_) return intersector.blocked(p, q, link, Aim{});
-  intersector.count(link, once_tests_, object_of(once_found_));
-  if (once_found_ != kNone) remember(once_found_);
-  return once_found_ != kNone;
+  std::uint32_t tests = 0, found = kNone;
+  if (tested_) {
+    const LeanSegment segment(p, q);
+    found = recent_blocker(segment, p, q, tests);
+    if (found == kNone) {
+      masks_.visit(box_of(p), box_of(q), [&](std::uint32_t f) {
+        if (!segment.may_meet(lean_[f])) return false;
+        tests += facets_[f].count;
+        if (!hits(f, p, q)) return false;
+        found = f;
+        return true;
+      });
+    }
+  }
+  intersector.count(link, tests, object_of(found));
+  if (found != kNone) remember(found);
+  return found != kNone;
 }
 
 bool Sight::blocked(const LatticePoint& p, const LatticePoint& q, const Link& link, Intersector& intersector) {

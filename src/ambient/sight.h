@@ -47,10 +47,8 @@ class Sight {
   /// By what these two found.
   bool blocked(const LatticePoint& p, const LatticePoint& q, const Link& link, Intersector& intersector);
 
-  /// Without a list: true if the segment is blocked; always false with flags off. Not counted before settle().
-  bool meets(const LatticePoint& p, const LatticePoint& q);
-  /// Counts the segment that meets() looked at; true if it is blocked.
-  bool settle(const LatticePoint& p, const LatticePoint& q, const Link& link, Intersector& intersector);
+  /// The same without a list.
+  bool blocked_alone(const LatticePoint& p, const LatticePoint& q, const Link& link, Intersector& intersector);
 
  private:
   static constexpr std::uint32_t kRecent = 4;
@@ -73,7 +71,6 @@ class Sight {
   std::uint32_t guess_ = kNone;   // what was in the way then
   std::uint16_t between_ = 0xffff;  // what clear() met last
   std::uint16_t recent_[kRecent];  // blockers, the latest first; 0xffff: none
-  std::uint32_t once_tests_ = 0, once_found_ = kNone;  // of meets()
   bool lists_ = false;
   bool tested_ = true;  // the pair's segments are
 };
