@@ -128,6 +128,8 @@ void Highlights::add(std::uint32_t optics, const HighlightView& view, double (&l
   for (const Emitter& emitter : faces_) add_face(emitter, look, luminance);
 }
 
+bool Highlights::even(std::uint32_t, const HighlightView&, const HighlightView&) const { return false; }
+
 /// The lobe in the direction of a vector; 0 where it has ended.
 double Highlights::lobe_at(const Look& look, const Vec3& to_light) const {
   const double along = dot(look.mirrored, to_light);

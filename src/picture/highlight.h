@@ -37,6 +37,10 @@ class Highlights {
   [[nodiscard]] bool start(const Scene& scene, const Geometry& geometry, const RayTree& tree, Arena& arena);
   static std::uint64_t bytes(const Scene& scene);
 
+  /// Whether highlights at points between two of a plane go on as between two lobes of neighbours: nothing comes
+  /// between them and a light that they show, and they are seen mirrored within a quarter of a lobe's width.
+  bool even(std::uint32_t optics, const HighlightView& a, const HighlightView& b) const;
+
   /// Adds the luminance of a material's highlight, cd/m2.
   void add(std::uint32_t optics, const HighlightView& view, double (&luminance)[3]) const;
 

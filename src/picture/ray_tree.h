@@ -32,6 +32,10 @@ class RayTree {
   template <class Visit>
   void visit_blockers(const Ray& ray, bool ends, Visit visit) const;
 
+  /// visit(triangle) for all that `hull` doesn't miss, boxes first, until it returns false; whether it never did.
+  template <class Hull, class Visit>
+  bool visit_in(Hull& hull, Visit visit) const;
+
   /// Whether light goes by as if nothing were there: openings from behind, and from both sides if what stands outside
   /// is to be seen.
   bool invisible(const DrawnTriangle& triangle, bool front) const;
@@ -56,6 +60,27 @@ class RayTree {
   std::span<std::uint32_t> order_;
   std::span<LatticeBox> nodes_;
 };
+
+template <class Hull, class Visit>
+bool RayTree::visit_in(Hull& hull, Visit visit) const {
+  std::uint32_t stack[33];
+  std::uint32_t depth = 0;
+  if (!nodes_.empty()) stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t node = stack[--depth];
+    if (hull.misses(nodes_[node])) continue;
+    if (2 * node + 1 < nodes_.size()) {
+      stack[depth++] = 2 * node + 2;
+      stack[depth++] = 2 * node + 1;
+      continue;
+    }
+    const Range range = range_of(node);
+    for (std::uint32_t k = range.first; k < range.end; ++k) {
+      if (!hull.misses(drawn_[order_[k]]) && !visit(order_[k])) return false;
+    }
+  }
+  return true;
+}
 
 template <class Visit>
 void RayTree::visit_blockers(const Ray& ray, bool ends, Visit visit) const {
