@@ -86,33 +86,34 @@ Beam::Beam(const LatticePoint& from_a, const LatticePoint& from_b, const Lattice
 
 bool Beam::misses(const LatticeBox& box) const {
   if (apart(around_, box)) return true;
-  for (std::uint32_t s = 0; s < count_; ++s) {
-    const Slab& slab = slabs_[s];
-    std::int32_t least = 0, most = 0;
-    for (int k = 0; k < 3; ++k) {
-      const std::int32_t low = slab.normal[k] * (box.low[k] >> kSteps), high = slab.normal[k] * (box.high[k] >> kSteps);
-      least += slab.normal[k] > 0 ? low : high;
-      most += slab.normal[k] > 0 ? high : low;
-    }
-    if (least > slab.high || most < slab.low) return true;
+  if (count_ == 0) return false;
+  const Slab& slab = slabs_[0];  // the others rarely tell of a box
+  std::int32_t least = 0, most = 0;
+  for (int k = 0; k < 3; ++k) {
+    const std::int32_t n = slab.normal[k], low = n * (box.low[k] >> kSteps), high = n * (box.high[k] >> kSteps);
+    least += n > 0 ? low : high;
+    most += n > 0 ? high : low;
   }
-  return false;
+  return least > slab.high || most < slab.low;
 }
 
 bool Beam::misses(const DrawnTriangle& triangle) const {
-  LatticeBox box;
-  for (const LatticePoint& p : triangle.vertex) box.include(p);
-  if (apart(around_, box)) return true;
-  for (std::uint32_t s = 0; s < count_; ++s) {
-    const Slab& slab = slabs_[s];
-    bool below = true, above = true;
-    for (const LatticePoint& p : triangle.vertex) {
-      const std::int32_t at = slab.normal[0] * (p.x >> kSteps) + slab.normal[1] * (p.y >> kSteps) +
-                              slab.normal[2] * (p.z >> kSteps);
-      below = below && at < slab.low;
-      above = above && at > slab.high;
+  const LatticePoint &a = triangle.vertex[0], &b = triangle.vertex[1], &c = triangle.vertex[2];
+  const auto beyond = [&](std::int32_t p, std::int32_t q, std::int32_t r, int k) {
+    const std::int32_t low = around_.low[k], high = around_.high[k];
+    return p < low ? q < low && r < low : p > high && q > high && r > high;
+  };
+  if (beyond(a.x, b.x, c.x, 0) || beyond(a.y, b.y, c.y, 1) || beyond(a.z, b.z, c.z, 2)) return true;
+  const Slab* const end = slabs_ + count_;
+  for (const Slab* slab = slabs_; slab != end; ++slab) {
+    const auto at = [&](const LatticePoint& p) {
+      return slab->normal[0] * (p.x >> kSteps) + slab->normal[1] * (p.y >> kSteps) + slab->normal[2] * (p.z >> kSteps);
+    };
+    const std::int32_t first = at(a);
+    if (first < slab->low ? at(b) < slab->low && at(c) < slab->low
+                          : first > slab->high && at(b) > slab->high && at(c) > slab->high) {
+      return true;
     }
-    if (below || above) return true;
   }
   return false;
 }

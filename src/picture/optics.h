@@ -58,9 +58,9 @@ class PictureOptics {
   void add(std::uint32_t triangle, std::int32_t x0, std::int32_t x1, std::uint32_t row, std::span<std::uint32_t> sums);
 
  private:
-  static constexpr std::int32_t kLongestReach = 32;
+  static constexpr std::int32_t kLongestReach = 128;
   static constexpr std::int32_t kBackgroundReach = 16;
-  static constexpr std::uint32_t kRecords = 8;  // kLongestReach is halved 5 times
+  static constexpr std::uint32_t kRecords = 10;  // kLongestReach is halved 7 times
 
   enum class Join : std::uint8_t { kNo, kIfMiddleAgrees, kYes };
 

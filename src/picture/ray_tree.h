@@ -1,6 +1,6 @@
 // The drawn triangles in a tree of boxes, for rays (paper 2.4; only for scenes with mirrors, glass or highlights).
 //
-// Median cuts along the widest axis of the centres; children of node k are 2 k + 1 and 2 k + 2, leaves hold up to four
+// Median cuts along the axis that leaves both halves' boxes the least surface (MacDonald and Booth 1990); children of node k are 2 k + 1 and 2 k + 2, leaves hold up to four
 // triangles. A ray's nearest hit is sought near boxes first; a box that begins beyond the nearest hit so far is left
 // out. Boxes are tested with 2^32 / |d| rounded down, and as much to spare as that can be off, so none that is met is
 // left out.
@@ -53,7 +53,7 @@ class RayTree {
   static bool meets(const LatticeBox& box, const Slabs& slabs, std::int64_t limit, std::int64_t& enters);
   void offer(const Ray& ray, const RayHit& last, std::uint32_t triangle, RayHit& best, std::int64_t& limit) const;
   Range range_of(std::uint32_t node) const;
-  void split(const Range& range);
+  void split(const Range& range, std::uint32_t cut);
 
   const Scene* scene_ = nullptr;
   std::span<const DrawnTriangle> drawn_;
