@@ -23,6 +23,8 @@ Status LinkWorth::take(Arena& arena, const Surfaces& surfaces, const DirectLight
 void LinkWorth::estimate(const Surfaces& s, const DirectLight& direct) {
   const std::uint32_t channels = s.scene->channels;
   double area = 0, mean = 0, ambient[3] = {0, 0, 0};
+  // White, on a white surface: what is brighter is displayed no brighter.
+  const double shown_lx = kPi * s.scene->display.max_cd_m2;
   const auto reflectance = [&](std::uint32_t node) { return s.scene->materials[s.mesh(node).material].diffuse.c; };
   for (std::uint32_t node = 0; node < s.size(); ++node) {
     if (!s.is_block(node)) area += s.root_area[node] * s.root_area[node];
@@ -36,10 +38,10 @@ void LinkWorth::estimate(const Surfaces& s, const DirectLight& direct) {
       const double lx = direct.patch_lx[std::size_t{s.patch_at[node]} * channels + c];
       absorbing += part * (1 - rho);
       reflected += part * rho * lx;
-      direct_light += part * lx;
+      direct_light += part * (lx < shown_lx ? lx : shown_lx);
     }
     ambient[c] = reflected / absorbing;
-    mean += direct_light / area + ambient[c];
+    mean += direct_light / area + (ambient[c] < shown_lx ? ambient[c] : shown_lx);
   }
   const double scale = mean > 0 ? 1 / (mean * square_root(area)) : 0;
   for (std::uint32_t node = s.size(); node-- > 0;) {

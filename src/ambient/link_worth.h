@@ -1,4 +1,7 @@
 // What a link matters to the light of the scene, estimated by direct light alone (ours; paper 3.2 rule 3 carried on).
+//
+// Errors are over the mean illuminance, in which no patch counts for more than pi MAX lux: a white surface is displayed
+// white there. Else a garden in the sun, 4,000 lx and more, would make everything indoors too dark to matter.
 // Bytes: 4 a node and 4 a block.
 #pragma once
 
@@ -20,7 +23,7 @@ class LinkWorth {
   Status take(Arena& arena, const Surfaces& surfaces, const DirectLight& direct, const Rules& rules);
   static std::uint64_t bytes(const Scene& scene, const Rules& rules);
 
-  /// Squares of what a node sends, and of how unevenly its parts do: (R B)^2 over (E R of the scene)^2.
+  /// Squares of what a node sends, and of how unevenly its parts do: (R B)^2 over (E R of the scene)^2, E as above.
   double sent(std::uint32_t node) const { return static_cast<double>(sent_[node]); }
   double uneven(std::uint32_t node) const {
     if (!surfaces_->is_block(node)) return 0;

@@ -1,132 +1,186 @@
 #include "picture/optics.h"
 
-#include <bit>
+#include "picture/beam.h"
 
 namespace shodo {
 
 namespace {
 
-constexpr std::uint32_t kWhole = 65536;
+constexpr double kTolerance = 1.0 / 32;           // sub-patches, as in shade.h
+constexpr std::uint32_t kMostFine = 1u << 28;     // of one surface between samples: 128 times white
+constexpr std::uint32_t kDisagrees = 64;          // fine steps, and 1/256 of the value, by which a highlight may bend
 
-std::uint32_t part_of(double part) { return static_cast<std::uint32_t>(part * kWhole + 0.5); }
+double distance(double a, double b) { return a < b ? b - a : a - b; }
 
-bool any(const std::uint32_t (&part)[3], std::uint32_t channels) {
-  for (std::uint32_t c = 0; c < channels; ++c) {
-    if (part[c] != 0) return true;
+/// Where a row's samples lie on a plane that two of them see, `n` samples apart.
+class RowOnPlane {
+ public:
+  RowOnPlane(const PathHit& a, const PathHit& b, std::int32_t n)
+      : a_(a), z_(a.nearness), dz_((b.nearness - a.nearness) / n), over_n_(1.0 / n), weight_b_(b.nearness / n),
+        du_(b.u - a.u), dv_(b.v - a.v), n_(n), end_(b) {}
+
+  TexturePlace at(std::int32_t k) const {
+    TexturePlace place;
+    place.u = a_.u;
+    place.v = a_.v;
+    place.inverse_depth = z_ + k * dz_;
+    if (k == 0) return place;
+    const double f = k * weight_b_ / place.inverse_depth;
+    place.u = k == n_ ? end_.u : a_.u + f * du_;
+    place.v = k == n_ ? end_.v : a_.v + f * dv_;
+    return place;
   }
-  return false;
-}
-
-/// True if something is left.
-bool weaken(std::uint32_t (&part)[3], const std::uint32_t (&by)[3], std::uint32_t channels) {
-  for (std::uint32_t c = 0; c < channels; ++c) {
-    part[c] = static_cast<std::uint32_t>(std::uint64_t{part[c]} * by[c] >> 16);
+  /// What a step changes is linear over the square of the inverse depth.
+  double step_at(std::int32_t k) const {
+    const double from = a_.step * a_.nearness * a_.nearness, to = end_.step * end_.nearness * end_.nearness;
+    const double z = z_ + k * dz_;
+    return (from + k * over_n_ * (to - from)) / (z * z);
   }
-  return any(part, channels);
-}
 
-/// The two texels between whose centres a coordinate lies, and the second one's weight in 1/4096.
-struct Between {
-  std::int32_t low, high;
-  std::uint32_t weight;
+ private:
+  const PathHit& a_;
+  double z_, dz_, over_n_, weight_b_, du_, dv_;
+  std::int32_t n_;
+  const PathHit& end_;
 };
 
-Between between(std::int32_t coordinate, std::int32_t count, bool wraps) {
-  const std::int32_t from_centre = coordinate - 2048;
-  const std::int32_t low = from_centre >> 12;
-  const auto inside = [&](std::int32_t k) {
-    if (wraps) return (k % count + count) % count;
-    return k < 0 ? 0 : k >= count ? count - 1 : k;
-  };
-  return {inside(low), inside(low + 1), static_cast<std::uint32_t>(from_centre & 4095)};
+bool is_straight(const TexturePlace& a, const TexturePlace& b) {
+  const double near = a.inverse_depth > b.inverse_depth ? a.inverse_depth : b.inverse_depth;
+  const double far = a.inverse_depth + b.inverse_depth - near, u = distance(a.u, b.u), v = distance(a.v, b.v);
+  return (u > v ? u : v) * (near - far) <= 4 * kTolerance * far;
+}
+
+/// Pieces of samples 0 .. n, each at most `longest` and straight: show(first, length, start, end).
+template <class PlaceAt, class Straight, class Show>
+void cut(std::int32_t n, std::int32_t longest, PlaceAt place_at, Straight straight, Show show) {
+  TexturePlace start = place_at(0);
+  for (std::int32_t k = 0; k < n;) {
+    std::int32_t reach = n - k < longest ? n - k : longest;
+    TexturePlace end;
+    for (;; reach = (reach + 1) / 2) {
+      end = place_at(k + reach);
+      if (reach == 1 || straight(start, end)) break;
+    }
+    show(k, reach, start, end);
+    k += reach;
+    start = end;
+  }
+}
+
+/// Whether all of a triangle is on the other side of a plane, or in it; `front`: the side that counts.
+bool is_beyond(const DrawnTriangle& triangle, const DrawnTriangle& plane, bool front, bool& all_in_plane) {
+  all_in_plane = true;
+  for (const LatticePoint& p : triangle.vertex) {
+    const std::int64_t side = side_of(plane, p);
+    if (front ? side > 0 : side < 0) return false;
+    all_in_plane = all_in_plane && side == 0;
+  }
+  return true;
 }
 
 }  // namespace
 
-std::uint32_t PictureOptics::fine_steps(double luminance_cd_m2) const {
-  // Here luminances become integers.
-  const double steps = luminance_cd_m2 / scene_->display.max_cd_m2 * (kWhite << kFineBits) + 0.5;
-  if (!(steps >= 1)) return 0;
-  return steps >= kBrightest ? kBrightest : static_cast<std::uint32_t>(steps);
-}
-
-bool PictureOptics::start(const Scene& scene, const Geometry& geometry, const DisplayMaps& maps,
-                          const SampleGrid& grid, const Display& display, Arena& arena) {
+bool PictureOptics::start(const Shown& shown, const Display& display, Arena& arena) {
+  const Scene& scene = shown.scene;
   scene_ = &scene;
+  geometry_ = &shown.geometry;
+  grid_ = shown.grid;
   roll_ = display.roll;
-  black_ = fine_steps(display.min_cd_m2);
-  geometry_ = &geometry;
-  maps_ = maps;
-  grid_ = grid;
-  const std::size_t lights = scene.lights.size() * scene.channels;
-  if (!tree_.build(scene, geometry.drawn, arena) || !arena.take("parts of optics", scene.optics.size(), parts_) ||
-      !arena.take("luminances of lights", lights, light_) || !arena.take("waiting rays", kMostWaiting, waiting_) ||
-      !highlights_.start(scene, geometry, tree_, arena)) {
+  const std::size_t samples = std::size_t{kLongestReach} * scene.channels;
+  if (!paths_.start(scene, shown.geometry, shown.maps, shown.grid, shown.textures, arena) ||
+      !arena.take("meshes in one plane", scene.meshes.size(), whole_) ||
+      !arena.take("traced samples", kRecords, records_) || !arena.take("samples between", samples, fine_) ||
+      !arena.take("steps of samples between", samples, steps_)) {
     return false;
   }
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
-    for (std::uint32_t c = 0; c < 3; ++c) {
-      parts_[k].reflect[c] = part_of(scene.optics[k].reflect.c[c]);
-      parts_[k].transmit[c] = part_of(scene.optics[k].transmit.c[c]);
-    }
+  black_ = paths_.fine_steps(display.min_cd_m2);
+  for (std::size_t m = 0; m < whole_.size(); ++m) whole_[m] = scene.meshes[m].kind == MeshKind::kQuad ? 1 : 0;
+  const std::span<const DrawnTriangle> drawn = shown.geometry.drawn;
+  for (std::size_t t = 1; t < drawn.size(); ++t) {
+    if (drawn[t].mesh == kNone || drawn[t].mesh != drawn[t - 1].mesh) continue;
+    if (shown.carriers[t] != shown.carriers[t - 1]) whole_[drawn[t].mesh] = 0;
   }
-  for (std::size_t k = 0; k < lights; ++k) {
-    const Light& light = scene.lights[k / scene.channels];
-    light_[k] = fine_steps(light.strength * light.colour.c[k % scene.channels]);
-  }
-  if (scene.background.empty()) return true;
-  const Background& background = scene.background[0];
-  for (std::uint32_t c = 0; c < 3; ++c) {
-    horizon_[c] = fine_steps(background.horizon.c[c]);
-    zenith_[c] = fine_steps(background.zenith.c[c]);
-    ground_[c] = fine_steps(background.ground.c[c]);
-  }
-  const LatticeVector up = lattice_direction(background.up);
-  up_ = {up.x >> 5, up.y >> 5, up.z >> 5};
   return true;
 }
 
 std::uint64_t PictureOptics::bytes(const Scene& scene, const Geometry& geometry) {
   if (!used(scene)) return 0;
   const auto block = [](std::uint64_t bytes) { return (bytes + 7) / 8 * 8; };
-  return RayTree::bytes(geometry.drawn.size()) + block(sizeof(Parts) * scene.optics.size()) +
-         block(4 * std::uint64_t{scene.lights.size()} * scene.channels) + block(sizeof(Path) * kMostWaiting) +
-         Highlights::bytes(scene);
-}
-
-/// The index of the material's optics; kNone.
-std::uint32_t PictureOptics::optics_at(const DrawnTriangle& drawn) const {
-  if (drawn.mesh == kNone) return kNone;
-  const Optics* const found = scene_->optics_of(scene_->meshes[drawn.mesh].material);
-  return found == nullptr ? kNone : static_cast<std::uint32_t>(found - scene_->optics.data());
-}
-
-bool PictureOptics::takes(const DrawnTriangle& drawn, bool front) const {
-  if (roll_ || tree_.invisible(drawn, front)) return true;
-  const std::uint32_t optics = optics_at(drawn);
-  return optics != kNone && (front || any(parts_[optics].transmit, scene_->channels));
+  const std::uint64_t samples = std::uint64_t{kLongestReach} * scene.channels;
+  return LightPaths::bytes(scene, geometry) + block(scene.meshes.size()) + block(sizeof(PathRecord) * kRecords) +
+         2 * block(4 * samples);
 }
 
 void PictureOptics::add(std::uint32_t triangle, std::int32_t x0, std::int32_t x1, std::uint32_t row,
                         std::span<std::uint32_t> sums) {
-  const std::uint32_t channels = scene_->channels;
-  for (std::int32_t x = x0; x < x1; ++x) {
-    Path path{{grid_.eye, ray_direction(grid_.direction(x, row))}, {kWhole, kWhole, kWhole}, 0};
-    RayHit first;
-    Colour sum = {0, 0, 0};
-    // At grazing angles the rounded ray may miss what the sample sees; it meets something else then.
-    if (triangle != kNone && (tree_.invisible(geometry_->drawn[triangle], true) ||
-                              !meet_plane(geometry_->drawn[triangle], triangle, path.ray, first))) {
-      first = tree_.nearest(path.ray, hint_[0]);
-      hint_[0] = first.triangle;
+  triangle_ = triangle;
+  row_ = row;
+  sums_ = sums;
+  if (x1 - x0 < 3) {
+    for (std::int32_t x = x0; x < x1; ++x) trace(x, nullptr);
+    return;
+  }
+  std::uint32_t left = 0;
+  trace(x0, &records_[left]);
+  std::int32_t reach = kLongestReach;
+  for (std::int32_t x = x0; x + 1 < x1; x = records_[left].x) {
+    const std::int32_t to = x1 - 1 - x < reach ? x1 - 1 : x + reach;
+    const bool easy = join_up_to(to, left);
+    if (easy && reach < kLongestReach) reach *= 2;
+    if (!easy && reach > 4) reach /= 2;
+  }
+}
+
+/// From the record `left` to sample x, of which `left` becomes the record. True if it took one step.
+bool PictureOptics::join_up_to(std::int32_t x, std::uint32_t& left) {
+  std::uint32_t stack[kRecords], depth = 0, unused[kRecords], free = 0;
+  for (std::uint32_t k = 0; k < kRecords; ++k) {
+    if (k != left) unused[free++] = k;
+  }
+  const auto push = [&](std::int32_t at) {
+    stack[depth++] = unused[--free];
+    trace(at, &records_[stack[depth - 1]]);
+  };
+  const auto pop = [&] {
+    unused[free++] = left;
+    left = stack[--depth];
+  };
+  push(x);
+  bool easy = true;
+  while (depth > 0) {
+    const PathRecord &a = records_[left], &b = records_[stack[depth - 1]];
+    if (b.x - a.x <= 1) {
+      pop();
+      continue;
     }
-    follow(path, first, sum);
-    std::uint32_t* const to = &sums[(static_cast<std::uint32_t>(x) >> grid_.shift) * channels];
-    for (std::uint32_t c = 0; c < channels; ++c) {
-      const std::uint64_t fine = roll_ ? rolled(sum[c] >> 16) << 16 : sum[c];
-      const std::uint64_t steps = (fine + (std::uint64_t{1} << (15 + kFineBits))) >> (16 + kFineBits);
-      to[c] += steps < kWhite ? static_cast<std::uint32_t>(steps) : kWhite;
+    const Join how = join(a, b);
+    if (how == Join::kYes) {
+      fill(a, b);
+      pop();
+      continue;
     }
+    push(a.x + (b.x - a.x) / 2);
+    const PathRecord& middle = records_[stack[depth - 1]];
+    if (how == Join::kIfMiddleAgrees && agrees(a, middle, b)) {
+      fill(a, middle);
+      pop();
+      fill(middle, b);
+      pop();
+      continue;
+    }
+    easy = false;
+  }
+  return easy;
+}
+
+void PictureOptics::trace(std::int32_t x, PathRecord* record) {
+  FineColour sum = {0, 0, 0};
+  paths_.trace(x, row_, triangle_, sum, record);
+  for (std::uint32_t c = 0; c < scene_->channels; ++c) {
+    const std::uint64_t fine = roll_ ? rolled(sum[c] >> 16) << 16 : sum[c];
+    const std::uint64_t steps = (fine + (std::uint64_t{1} << (15 + kFineBits))) >> (16 + kFineBits);
+    sums_[(static_cast<std::uint32_t>(x) >> grid_.shift) * scene_->channels + c] +=
+        steps < kWhite ? static_cast<std::uint32_t>(steps) : kWhite;
   }
 }
 
@@ -137,96 +191,173 @@ std::uint64_t PictureOptics::rolled(std::uint64_t fine) const {
   return black_ + range - range * range / (4 * (fine - black_));
 }
 
-/// Sums part times luminance along the path and all that branches off.
-void PictureOptics::follow(const Path& start, const RayHit& first, Colour& sum) {
-  Path path = start;
-  RayHit hit = first;
-  waiting_count_ = 0;
-  std::uint32_t depth = 1;
-  for (;;) {
-    for (; hit.any() && pass(hit, path, sum); ++depth) {
-      std::uint32_t& hint = hint_[depth < kHints ? depth : kHints - 1];
-      hit = tree_.nearest_after(path.ray, hit, hint);
-      hint = hit.triangle;
+bool PictureOptics::same_surface(const PathHit& a, const PathHit& b) const {
+  if (a.front != b.front || a.reflected != b.reflected || a.parent != b.parent || a.shines != b.shines) return false;
+  if (a.triangle == b.triangle) return true;
+  if (a.triangle == kNone || b.triangle == kNone) return false;
+  const std::uint32_t mesh = geometry_->drawn[a.triangle].mesh;
+  return mesh != kNone && mesh == geometry_->drawn[b.triangle].mesh && whole_[mesh] != 0;
+}
+
+/// Whether the samples between see what both see.
+PictureOptics::Join PictureOptics::join(const PathRecord& a, const PathRecord& b) const {
+  if (a.count != b.count || a.count > kMostPathHits || a.sought != b.sought) return Join::kNo;
+  bool shines = false;
+  for (std::uint32_t k = 0; k < a.count; ++k) {
+    if (!same_surface(a.hit[k], b.hit[k])) return Join::kNo;
+    if (a.hit[k].triangle == kNone && b.x - a.x > kBackgroundReach) return Join::kNo;
+    shines = shines || a.hit[k].shines;
+  }
+  // What was sought though the scanline knew it is met at a grazing angle.
+  if (a.sought && !paths_.tree().invisible(geometry_->drawn[triangle_], true)) return Join::kNo;
+  for (std::uint32_t k = a.sought ? 0 : 1; k < a.count; ++k) {
+    if (!nothing_between(a, b, k)) return Join::kNo;
+  }
+  for (std::uint32_t k = 0; k < a.count && shines; ++k) {
+    const PathHit &here = a.hit[k], &there = b.hit[k];
+    if (!here.shines) continue;
+    const DrawnTriangle &at_a = geometry_->drawn[here.triangle], &at_b = geometry_->drawn[there.triangle];
+    const HighlightView from{&at_a, here.at, {here.mirrored[0], here.mirrored[1], here.mirrored[2]}},
+        to{&at_b, there.at, {there.mirrored[0], there.mirrored[1], there.mirrored[2]}};
+    if (!paths_.highlights().even(paths_.optics_at(at_a), from, to)) return Join::kNo;
+  }
+  return shines ? Join::kIfMiddleAgrees : Join::kYes;
+}
+
+/// Whether no triangle comes between the k-th surface and the one before it, from either sample's ray to the other's.
+bool PictureOptics::nothing_between(const PathRecord& a, const PathRecord& b, std::uint32_t k) const {
+  const PathHit &here = a.hit[k], &there = b.hit[k];
+  const bool from_eye = here.parent == kNoHit;
+  const PathHit* const parent = from_eye ? nullptr : &a.hit[here.parent];
+  const Beam beam(from_eye ? grid_.eye : parent->at, from_eye ? grid_.eye : b.hit[here.parent].at, here.at, there.at);
+  const std::span<const DrawnTriangle> drawn = geometry_->drawn;
+  return paths_.tree().visit_in(beam, [&](std::uint32_t t) {
+    if (t == here.triangle || t == there.triangle) return true;
+    const DrawnTriangle& triangle = drawn[t];
+    bool in_plane;
+    // Off a surface rays go on before it, through it on its other side.
+    const bool starts_in_front = from_eye || here.reflected || !parent->front;
+    if (!from_eye && is_beyond(triangle, drawn[parent->triangle], starts_in_front, in_plane)) return true;
+    if (here.triangle != kNone && is_beyond(triangle, drawn[here.triangle], here.front, in_plane)) {
+      // Another surface in the same plane may be what is seen there.
+      return !in_plane || triangle.mesh == drawn[here.triangle].mesh;
     }
-    if (!hit.any()) add_background(path, sum);
-    if (waiting_count_ == 0) return;
-    path = waiting_[--waiting_count_];
-    std::uint32_t& hint = hint_[depth < kHints ? depth : kHints - 1];
-    hit = tree_.nearest(path.ray, hint);
-    hint = hit.triangle;
-    ++depth;
-  }
+    return paths_.tree().invisible(triangle, true) && paths_.tree().invisible(triangle, false);
+  });
 }
 
-/// Adds what the hit shows and puts its reflection aside; true if the path goes on behind it.
-bool PictureOptics::pass(const RayHit& hit, Path& path, Colour& sum) {
-  const DrawnTriangle& drawn = geometry_->drawn[hit.triangle];
-  const std::uint32_t optics = optics_at(drawn);
-  if (hit.front) add_surface(drawn, hit, path, sum);
-  if (optics == kNone) return false;
-  if (hit.front && scene_->optics[optics].highlight > 0) add_highlight(drawn, hit, path, optics, sum);
-  Path way = path;
-  if (hit.front && path.reflections < kMostReflections && waiting_count_ < kMostWaiting &&
-      weaken(way.part, parts_[optics].reflect, scene_->channels)) {
-    way.ray = {point_before(drawn, path.ray, hit), mirrored(drawn, path.ray.direction)};
-    ++way.reflections;
-    waiting_[waiting_count_++] = way;
+/// Whether highlights go on as lines.
+bool PictureOptics::agrees(const PathRecord& a, const PathRecord& middle, const PathRecord& b) const {
+  if (middle.count != a.count || middle.sought != a.sought) return false;
+  const double along = static_cast<double>(middle.x - a.x) / (b.x - a.x);
+  for (std::uint32_t k = 0; k < a.count; ++k) {
+    if (!same_surface(a.hit[k], middle.hit[k])) return false;
+    if (!a.hit[k].shines) continue;
+    for (std::uint32_t c = 0; c < scene_->channels; ++c) {
+      const double from = a.hit[k].shown[c], to = b.hit[k].shown[c], found = middle.hit[k].shown[c];
+      if (distance(from + along * (to - from), found) > kDisagrees + found / 256) return false;
+    }
   }
-  return weaken(path.part, parts_[optics].transmit, scene_->channels);
+  return true;
 }
 
-void PictureOptics::add_surface(const DrawnTriangle& drawn, const RayHit& hit, const Path& path, Colour& sum) const {
+/// Shows the samples between two that met the same.
+void PictureOptics::fill(const PathRecord& a, const PathRecord& b) {
   const std::uint32_t channels = scene_->channels;
-  const MapPlace at = drawn.mesh == kNone ? MapPlace{} : map_place(drawn, hit);
+  const std::int32_t n = b.x - a.x;
+  for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(n) * channels; ++k) fine_[k] = 0;
+  std::uint32_t part[kMostPathHits][3];
+  for (std::uint32_t k = 0; k < a.count; ++k) {
+    const PathHit &here = a.hit[k], &there = b.hit[k];
+    for (std::uint32_t c = 0; c < 3; ++c) part[k][c] = here.parent == kNoHit ? kWholePart : part[here.parent][c];
+    if (here.parent != kNoHit) {
+      const PathParts& parts = paths_.parts(paths_.optics_at(geometry_->drawn[a.hit[here.parent].triangle]));
+      weaken(part[k], here.reflected ? parts.reflect : parts.transmit, channels);
+    }
+    if (here.triangle == kNone || here.shines) add_line(here.shown, there.shown, part[k], n);
+    if (here.triangle == kNone || !here.front) continue;
+    const DrawnTriangle& drawn = geometry_->drawn[here.triangle];
+    if (drawn.mesh == kNone) {
+      std::uint32_t light[3] = {0, 0, 0};
+      for (std::uint32_t c = 0; c < channels; ++c) light[c] = paths_.light(drawn.light, c);
+      add_line(light, light, part[k], n);
+    } else if (paths_.texture_of_mesh(drawn.mesh) != nullptr) {
+      add_textured(here, there, part[k], n);
+    } else {
+      add_map(here, there, part[k], n);
+    }
+  }
+  for (std::int32_t k = 1; k < n; ++k) {
+    const std::uint32_t pixel = static_cast<std::uint32_t>(a.x + k) >> grid_.shift;
+    for (std::uint32_t c = 0; c < channels; ++c) {
+      const std::uint32_t found = fine_[static_cast<std::uint32_t>(k) * channels + c];
+      const std::uint32_t fine = roll_ ? static_cast<std::uint32_t>(rolled(found)) : found;
+      const std::uint32_t steps = (fine + (1u << (kFineBits - 1))) >> kFineBits;
+      sums_[pixel * channels + c] += steps < kWhite ? steps : kWhite;
+    }
+  }
+}
+
+/// Adds part times what goes from one value to the other.
+void PictureOptics::add_line(const std::uint32_t (&from)[3], const std::uint32_t (&to)[3],
+                             const std::uint32_t (&part)[3], std::int32_t n) {
+  const std::uint32_t channels = scene_->channels;
   for (std::uint32_t c = 0; c < channels; ++c) {
-    const std::uint32_t value = drawn.mesh == kNone ? light_[drawn.light * channels + c] : map_value(drawn, at, c);
-    sum[c] += std::uint64_t{path.part[c]} * value;
+    const auto weak = [&](std::uint32_t value) {
+      const std::uint32_t all = static_cast<std::uint32_t>(std::uint64_t{value} * part[c] >> 16);
+      return static_cast<std::int32_t>(all < kMostFine ? all : kMostFine);
+    };
+    // 2 more bits: 31 in all.
+    const std::int32_t start = weak(from[c]), step = ((weak(to[c]) - start) * 4) / n;
+    std::int32_t value = start * 4 + 2;
+    std::uint32_t* fine = &fine_[c];
+    for (std::int32_t k = 1; k < n; ++k) {
+      value += step;
+      fine += channels;
+      *fine += static_cast<std::uint32_t>(value) >> 2;
+    }
   }
 }
 
-/// The mesh's map there, bilinear, fine steps.
-std::uint32_t PictureOptics::map_value(const DrawnTriangle& drawn, const MapPlace& place, std::uint32_t c) const {
-  const Mesh& mesh = scene_->meshes[drawn.mesh];
-  const std::uint32_t width = mesh.map_width(), channels = scene_->channels;
-  const Between u = between(place.u, static_cast<std::int32_t>(width), mesh.wraps_u);
-  const Between v = between(place.v, static_cast<std::int32_t>(mesh.map_height()), false);
-  const auto texel = [&](std::int32_t at_u, std::int32_t at_v) {
-    const std::size_t at = mesh.first_sub_patch + std::size_t{static_cast<std::uint32_t>(at_v)} * width +
-                           static_cast<std::uint32_t>(at_u);
-    return std::uint64_t{maps_.texel[at * channels + c]};
+void PictureOptics::add_map(const PathHit& a, const PathHit& b, const std::uint32_t (&part)[3], std::int32_t n) {
+  const std::uint32_t channels = scene_->channels, values = static_cast<std::uint32_t>(n) * channels;
+  const MapTexels map = paths_.texels_of(scene_->meshes[geometry_->drawn[a.triangle].mesh]);
+  const RowOnPlane row(a, b, n);
+  for (std::uint32_t k = 0; k < values; ++k) steps_[k] = 0;
+  cut(n, n, [&](std::int32_t k) { return row.at(k); }, is_straight,
+      [&](std::int32_t k, std::int32_t reach, const TexturePlace& start, const TexturePlace& end) {
+        const double share = 1.0 / reach;
+        add_piece(map, {k, reach, fixed_point(start.u, 12), fixed_point(start.v, 12),
+                        fixed_point((end.u - start.u) * share, 16), fixed_point((end.v - start.v) * share, 16)},
+                  steps_.data());
+      });
+  for (std::uint32_t k = channels; k < values; k += channels) {
+    for (std::uint32_t c = 0; c < channels; ++c) {
+      const std::uint32_t steps = steps_[k + c] < 65535 ? steps_[k + c] : 65535;
+      fine_[k + c] += steps * part[c] >> (16 - kFineBits);
+    }
+  }
+}
+
+void PictureOptics::add_textured(const PathHit& a, const PathHit& b, const std::uint32_t (&part)[3], std::int32_t n) {
+  const std::uint32_t channels = scene_->channels, mesh = geometry_->drawn[a.triangle].mesh;
+  const TextureShade shade(*scene_, scene_->meshes[mesh], *paths_.texture_of_mesh(mesh),
+                           paths_.texels_of(scene_->meshes[mesh]));
+  const RowOnPlane row(a, b, n);
+  const auto place_at = [&](std::int32_t k) {
+    TexturePlace place = row.at(k);
+    place.step = row.step_at(k);
+    shade.set_texture_place(place);
+    return place;
   };
-  const std::uint64_t low = texel(u.low, v.low) * (4096 - u.weight) + texel(u.high, v.low) * u.weight;
-  const std::uint64_t high = texel(u.low, v.high) * (4096 - u.weight) + texel(u.high, v.high) * u.weight;
-  return static_cast<std::uint32_t>((low * (4096 - v.weight) + high * v.weight) >> (24 - kFineBits));
-}
-
-void PictureOptics::add_highlight(const DrawnTriangle& drawn, const RayHit& hit, const Path& path,
-                                  std::uint32_t optics, Colour& sum) const {
-  const HighlightView view{&drawn, point_before(drawn, path.ray, hit), mirrored(drawn, path.ray.direction)};
-  double luminance[3] = {0, 0, 0};
-  highlights_.add(optics, view, luminance);
-  for (std::uint32_t c = 0; c < scene_->channels; ++c) sum[c] += std::uint64_t{path.part[c]} * fine_steps(luminance[c]);
-}
-
-void PictureOptics::add_background(const Path& path, Colour& sum) const {
-  if (scene_->background.empty()) return;
-  const LatticeVector& way = path.ray.direction;
-  const LatticeVector d{way.x >> 5, way.y >> 5, way.z >> 5};
-  const std::int64_t rise = dot(d, up_);  // at most 2^31.6
-  // The square of the sine, in 65536ths: 32 bits over 16.
-  const std::uint64_t whole = static_cast<std::uint64_t>(dot(d, d)) * static_cast<std::uint64_t>(dot(up_, up_));
-  const std::uint64_t size = static_cast<std::uint64_t>(rise < 0 ? -rise : rise);
-  const int right = 48 - std::countl_zero(whole | 1) > 0 ? 48 - std::countl_zero(whole | 1) : 0;
-  const std::uint32_t below = static_cast<std::uint32_t>(whole >> right);
-  const std::uint64_t above = size * size >> right << 16;
-  const std::uint32_t squared =
-      below == 0 ? 0 : above >= std::uint64_t{below} << 16 ? kWhole : static_cast<std::uint32_t>(above) / below;
-  const std::uint64_t high = squared < kWhole ? squared : kWhole;
-  for (std::uint32_t c = 0; c < scene_->channels; ++c) {
-    const std::uint64_t sky = (horizon_[c] * (kWhole - high) + zenith_[c] * high) >> 16;
-    sum[c] += path.part[c] * (rise < 0 ? std::uint64_t{ground_[c]} : sky);
-  }
+  cut(n, TextureShade::kReach, place_at,
+      [&](const TexturePlace& start, const TexturePlace& end) { return shade.straight(start, end); },
+      [&](std::int32_t first, std::int32_t reach, const TexturePlace& start, const TexturePlace& end) {
+        shade.show_piece(reach, reach, start, end, 65535, [&](std::int32_t k, const std::uint32_t (&steps)[3]) {
+          const std::uint32_t at = static_cast<std::uint32_t>(first + k) * channels;
+          for (std::uint32_t c = 0; c < channels; ++c) fine_[at + c] += steps[c] * part[c] >> (16 - kFineBits);
+        });
+      });
 }
 
 }  // namespace shodo

@@ -1,17 +1,19 @@
-// What mirrors, glass, highlights and the background show at a sample (paper 2.4: "reflection, transmission and
+// Mirrors, glass, highlights and the background along a row of samples (paper 2.4: "reflection, transmission and
 // highlights are processed"; deviation D18, doc/optics.md).
 //
-// The scanlines find what a sample sees first, exactly. Where that does more than reflect diffusely, the sample's ray
-// goes on: through panes to what stands behind them, nearest first; off mirrors in the mirrored direction, up to
-// kMostReflections times. What it meets counts by the product of the panes' and mirrors' parts on the way:
+// What one sample shows, its ray finds (light_path.h). Neighbours mostly see the same things, and so not each of them
+// is traced: where two samples of a span, up to kLongestReach apart, met the same surfaces one after the other, and no
+// triangle comes between in any of the spaces that their rays bound (beam.h), all samples between see these
+// surfaces too, and show what lies between by perspective. Map coordinates and inverse depths of a row on one plane
+// are as in shade.h: a mirror changes the eye, not that. Where two samples differ, the one in the middle is traced.
+// Highlights are taken linearly between samples if nothing can shade them there, the mirrored directions are within a
+// quarter of a lobe's width, and the sample in the middle, which is traced, agrees.
 //
-//     L = map + highlight + reflect L(mirrored) + transmit L(behind);  of a pane seen from behind transmit L(behind)
-//
-// Exact: what a ray meets, and in which order. Approximate: its direction, rounded to 2^-20 (1/1000 pixel), the point
-// where a mirror sends it on (two lattice steps), parts to 1/65536. Luminances are sums of integers: display steps with
-// 8 more bits. A ray whose part is below 1/65536 ends, and so does one after kMostReflections: black.
-// Only for scenes with such materials or a background. Bytes: ray_tree.h's, highlight.h's, 24 an optics, 4 a light and
-// channel, 2,816 for waiting rays.
+// Exact: which surfaces traced samples see, and that no others do between, to the two lattice steps to which the
+// points of mirrors are rounded. Approximate: map coordinates between to 1/32 sub-patch, as everywhere; the background
+// as a line over at most 16 samples.
+// Only for scenes with such materials or a background. Bytes: light_path.h's; 7,808 for traced samples, 256 a channel,
+// 1 a mesh.
 #pragma once
 
 #include <cstdint>
@@ -19,18 +21,12 @@
 
 #include "base/arena.h"
 #include "picture/display.h"
-#include "picture/highlight.h"
-#include "picture/ray_tree.h"
+#include "picture/light_path.h"
 #include "picture/view.h"
 #include "scene/scene.h"
 #include "visibility/geometry.h"
 
 namespace shodo {
-
-inline constexpr std::uint32_t kMostReflections = 8;
-inline constexpr std::uint32_t kMostWaiting = 64;  // reflections of one sample yet to be followed
-inline constexpr std::uint32_t kFineBits = 8;      // of luminance, below a display step
-inline constexpr std::uint32_t kBrightest = std::uint32_t{1} << 30;  // 512 times white
 
 class PictureOptics {
  public:
@@ -43,54 +39,57 @@ class PictureOptics {
     return used(scene) ? Display{0, scene.display.max_cd_m2} : scene.display;
   }
 
+  /// What is drawn, and how; `carriers`: of map_plane.h.
+  struct Shown {
+    const Scene& scene;  // on the display of display_of()
+    const Geometry& geometry;
+    const DisplayMaps& maps;
+    const SampleGrid& grid;
+    std::span<const MeshTexture> textures;
+    std::span<const std::uint32_t> carriers;
+  };
   /// `display`: the scene file's.
-  [[nodiscard]] bool start(const Scene& scene, const Geometry& geometry, const DisplayMaps& maps,
-                           const SampleGrid& grid, const Display& display, Arena& arena);
+  [[nodiscard]] bool start(const Shown& shown, const Display& display, Arena& arena);
   static std::uint64_t bytes(const Scene& scene, const Geometry& geometry);
 
   /// Whether samples that see this side of it first are for add().
-  bool takes(const DrawnTriangle& drawn, bool front) const;
+  bool takes(const DrawnTriangle& drawn, bool front) const { return roll_ || paths_.goes_on(drawn, front); }
   /// Adds samples x0 .. x1 - 1 of a row, which see a triangle first, or nothing (kNone), to their pixels' sums.
   void add(std::uint32_t triangle, std::int32_t x0, std::int32_t x1, std::uint32_t row, std::span<std::uint32_t> sums);
 
  private:
-  struct Parts {  // 65536: all of it
-    std::uint32_t reflect[3] = {}, transmit[3] = {};
-  };
-  struct Path {
-    Ray ray;
-    std::uint32_t part[3];
-    std::uint32_t reflections;
-  };
-  using Colour = std::uint64_t[3];
+  static constexpr std::int32_t kLongestReach = 128;
+  static constexpr std::int32_t kBackgroundReach = 16;
+  static constexpr std::uint32_t kRecords = 10;  // kLongestReach is halved 7 times
 
+  enum class Join : std::uint8_t { kNo, kIfMiddleAgrees, kYes };
+
+  void trace(std::int32_t x, PathRecord* record);
   std::uint64_t rolled(std::uint64_t fine) const;
-  void follow(const Path& path, const RayHit& first, Colour& sum);
-  bool pass(const RayHit& hit, Path& path, Colour& sum);
-  void add_surface(const DrawnTriangle& drawn, const RayHit& hit, const Path& path, Colour& sum) const;
-  void add_highlight(const DrawnTriangle& drawn, const RayHit& hit, const Path& path, std::uint32_t optics,
-                     Colour& sum) const;
-  void add_background(const Path& path, Colour& sum) const;
-  std::uint32_t optics_at(const DrawnTriangle& drawn) const;
-  std::uint32_t map_value(const DrawnTriangle& drawn, const MapPlace& at, std::uint32_t channel) const;
-  std::uint32_t fine_steps(double luminance_cd_m2) const;
+  bool join_up_to(std::int32_t x, std::uint32_t& left);
+  Join join(const PathRecord& a, const PathRecord& b) const;
+  bool same_surface(const PathHit& a, const PathHit& b) const;
+  bool nothing_between(const PathRecord& a, const PathRecord& b, std::uint32_t k) const;
+  bool agrees(const PathRecord& a, const PathRecord& middle, const PathRecord& b) const;
+  void fill(const PathRecord& a, const PathRecord& b);
+  void add_line(const std::uint32_t (&from)[3], const std::uint32_t (&to)[3], const std::uint32_t (&part)[3],
+                std::int32_t n);
+  void add_map(const PathHit& a, const PathHit& b, const std::uint32_t (&part)[3], std::int32_t n);
+  void add_textured(const PathHit& a, const PathHit& b, const std::uint32_t (&part)[3], std::int32_t n);
 
   const Scene* scene_ = nullptr;
   const Geometry* geometry_ = nullptr;
-  DisplayMaps maps_;
   SampleGrid grid_;
-  RayTree tree_;
-  Highlights highlights_;
-  std::span<Parts> parts_;              // per optics
-  std::span<std::uint32_t> light_;      // [light * channels + channel]: fine steps
-  std::span<Path> waiting_;
-  std::uint32_t waiting_count_ = 0;
-  static constexpr std::uint32_t kHints = 8;
-  std::uint32_t hint_[kHints] = {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};  // hits of the sample before
+  LightPaths paths_;
+  std::span<std::uint8_t> whole_;       // by mesh: one convex polygon with one map
+  std::span<PathRecord> records_;
+  std::span<std::uint32_t> fine_;       // [sample * channels + channel]: fine steps between two traced samples
+  std::span<std::uint32_t> steps_;      // display steps of one surface there
   bool roll_ = false;
   std::uint64_t black_ = 0;             // fine steps of the display's MIN
-  std::uint32_t horizon_[3] = {}, zenith_[3] = {}, ground_[3] = {};  // fine steps
-  LatticeVector up_;                    // of the background, largest component 2^15
+  // The span at work.
+  std::uint32_t triangle_ = kNone, row_ = 0;
+  std::span<std::uint32_t> sums_;
 };
 
 }  // namespace shodo

@@ -80,7 +80,8 @@ bool prepare(Picture& picture, const IlluminanceMaps& maps, const Options& optio
   fill_display_table(picture.level, picture.with_optics ? display.min_cd_m2 / display.max_cd_m2 : 0);
   if (!picture.lines.start(scene, *picture.geometry, picture.grid, arena)) return false;
   return !picture.with_optics ||
-         picture.optics.start(scene, *picture.geometry, picture.maps, picture.grid, display, arena);
+         picture.optics.start({scene, *picture.geometry, picture.maps, picture.grid, picture.textures,
+                               picture.lines.carriers()}, display, arena);
 }
 
 MapTexels texels_of(const Picture& picture, const Mesh& mesh) {

@@ -122,13 +122,20 @@ MapPlace map_place(const DrawnTriangle& t, const RayHit& hit) {
   return {coordinate(t.u), coordinate(t.v)};
 }
 
-LatticePoint point_before(const DrawnTriangle& t, const Ray& ray, const RayHit& hit) {
+std::int64_t side_of(const DrawnTriangle& triangle, const LatticePoint& point) {
+  return dot(normal_of(triangle), point - triangle.vertex[0]);
+}
+
+LatticePoint point_at(const Ray& ray, const RayHit& hit) {
   const int right = shift_to(hit.speed > hit.distance ? hit.speed : hit.distance, 40);
   const std::int64_t far = hit.distance >> right, fast = hit.speed >> right > 0 ? hit.speed >> right : 1;
   const LatticeVector& d = ray.direction;
   const std::int64_t part = (far << kPartBits) / fast;
-  LatticePoint p{odd_near(ray.origin.x, d.x, part), odd_near(ray.origin.y, d.y, part),
-                 odd_near(ray.origin.z, d.z, part)};
+  return {odd_near(ray.origin.x, d.x, part), odd_near(ray.origin.y, d.y, part), odd_near(ray.origin.z, d.z, part)};
+}
+
+LatticePoint point_before(const DrawnTriangle& t, const Ray& ray, const RayHit& hit) {
+  LatticePoint p = point_at(ray, hit);
   LatticeVector n = normal_of(t);
   if (!hit.front) n = {-n.x, -n.y, -n.z};
   const std::int64_t side = dot(n, p - t.vertex[0]);

@@ -54,7 +54,13 @@ struct MapPlace {
 };
 MapPlace map_place(const DrawnTriangle& triangle, const RayHit& hit);
 
-/// An odd lattice point at the hit, strictly on the side of the triangle from which the ray comes.
+/// A point's side of the triangle's plane: its distance times 2 areas, above 0 in front.
+std::int64_t side_of(const DrawnTriangle& triangle, const LatticePoint& point);
+
+/// An odd lattice point at the hit, to the nearest.
+LatticePoint point_at(const Ray& ray, const RayHit& hit);
+
+/// The same, strictly on the side of the triangle from which the ray comes.
 LatticePoint point_before(const DrawnTriangle& triangle, const Ray& ray, const RayHit& hit);
 
 /// The way on after a mirror: d - 2 (d.n) n / n.n, with n the triangle's normal as a ray_direction(). Off by at most

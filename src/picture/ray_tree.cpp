@@ -25,6 +25,13 @@ LatticeBox box_of(const DrawnTriangle& triangle) {
   return box;
 }
 
+/// Half of the surface.
+std::int64_t surface_of(const LatticeBox& box) {
+  const std::int64_t x = std::int64_t{box.high[0]} - box.low[0], y = std::int64_t{box.high[1]} - box.low[1],
+                     z = std::int64_t{box.high[2]} - box.low[2];
+  return x * y + y * z + z * x;
+}
+
 /// distance / speed in units of Slabs, at least what it is, and by not more than 1/256 of it or so.
 std::int64_t limit_of(const RayHit& hit) {
   const int width = 64 - std::countl_zero(static_cast<std::uint64_t>(hit.speed));
@@ -48,7 +55,7 @@ bool RayTree::build(const Scene& scene, std::span<const DrawnTriangle> drawn, Ar
   if (!arena.take("boxes for rays", static_cast<std::size_t>(count_nodes(drawn.size())), nodes_)) return false;
   for (std::uint32_t k = 0; k < order_.size(); ++k) order_[k] = k;
   const std::uint32_t nodes = static_cast<std::uint32_t>(nodes_.size());
-  for (std::uint32_t node = 0; 2 * node + 1 < nodes; ++node) split(range_of(node));
+  for (std::uint32_t node = 0; 2 * node + 1 < nodes; ++node) split(range_of(node), range_of(2 * node + 2).first);
   for (std::uint32_t node = nodes; node-- > 0;) {
     LatticeBox box;
     if (2 * node + 1 < nodes) {
@@ -70,22 +77,35 @@ RayTree::Range RayTree::range_of(std::uint32_t node) const {
   return {static_cast<std::uint32_t>(count * place >> level), static_cast<std::uint32_t>(count * (place + 1) >> level)};
 }
 
-void RayTree::split(const Range& range) {
+/// `cut`: the first of the second half.
+void RayTree::split(const Range& range, std::uint32_t cut) {
   const auto middle = [this](std::uint32_t t, int axis) {
     const LatticeBox box = box_of(drawn_[t]);
     return box.low[axis] + box.high[axis];
   };
-  LatticeBox middles;
   const std::span<std::uint32_t> order = order_.subspan(range.first, range.end - range.first);
-  for (const std::uint32_t t : order) middles.include(LatticePoint{middle(t, 0), middle(t, 1), middle(t, 2)});
-  int axis = 0;
-  for (int k = 1; k < 3; ++k) {
-    if (middles.high[k] - middles.low[k] > middles.high[axis] - middles.low[axis]) axis = k;
+  const auto sort_along = [&](int axis) {
+    heap_sort(order, [&](std::uint32_t a, std::uint32_t b) {
+      const std::int32_t at_a = middle(a, axis), at_b = middle(b, axis);
+      return at_a == at_b ? a < b : at_a < at_b;
+    });
+  };
+  // Of both halves the surfaces, which rays meet in proportion.
+  const auto surfaces = [&] {
+    LatticeBox half[2];
+    for (std::uint32_t k = range.first; k < range.end; ++k) half[k < cut ? 0 : 1].include(box_of(drawn_[order_[k]]));
+    return surface_of(half[0]) + surface_of(half[1]);
+  };
+  int best = 0;
+  std::int64_t least = INT64_MAX;
+  for (int axis = 0; axis < 3; ++axis) {
+    sort_along(axis);
+    const std::int64_t here = surfaces();
+    if (here >= least) continue;
+    least = here;
+    best = axis;
   }
-  heap_sort(order, [&](std::uint32_t a, std::uint32_t b) {
-    const std::int32_t at_a = middle(a, axis), at_b = middle(b, axis);
-    return at_a == at_b ? a < b : at_a < at_b;
-  });
+  if (best != 2) sort_along(best);
 }
 
 RayTree::Slabs RayTree::slabs_of(const Ray& ray) {

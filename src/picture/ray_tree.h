@@ -1,6 +1,6 @@
 // The drawn triangles in a tree of boxes, for rays (paper 2.4; only for scenes with mirrors, glass or highlights).
 //
-// Median cuts along the widest axis of the centres; children of node k are 2 k + 1 and 2 k + 2, leaves hold up to four
+// Median cuts along the axis that leaves both halves' boxes the least surface (MacDonald and Booth 1990); children of node k are 2 k + 1 and 2 k + 2, leaves hold up to four
 // triangles. A ray's nearest hit is sought near boxes first; a box that begins beyond the nearest hit so far is left
 // out. Boxes are tested with 2^32 / |d| rounded down, and as much to spare as that can be off, so none that is met is
 // left out.
@@ -32,6 +32,10 @@ class RayTree {
   template <class Visit>
   void visit_blockers(const Ray& ray, bool ends, Visit visit) const;
 
+  /// visit(triangle) for all that `hull` doesn't miss, boxes first, until it returns false; whether it never did.
+  template <class Hull, class Visit>
+  bool visit_in(Hull& hull, Visit visit) const;
+
   /// Whether light goes by as if nothing were there: openings from behind, and from both sides if what stands outside
   /// is to be seen.
   bool invisible(const DrawnTriangle& triangle, bool front) const;
@@ -49,13 +53,34 @@ class RayTree {
   static bool meets(const LatticeBox& box, const Slabs& slabs, std::int64_t limit, std::int64_t& enters);
   void offer(const Ray& ray, const RayHit& last, std::uint32_t triangle, RayHit& best, std::int64_t& limit) const;
   Range range_of(std::uint32_t node) const;
-  void split(const Range& range);
+  void split(const Range& range, std::uint32_t cut);
 
   const Scene* scene_ = nullptr;
   std::span<const DrawnTriangle> drawn_;
   std::span<std::uint32_t> order_;
   std::span<LatticeBox> nodes_;
 };
+
+template <class Hull, class Visit>
+bool RayTree::visit_in(Hull& hull, Visit visit) const {
+  std::uint32_t stack[33];
+  std::uint32_t depth = 0;
+  if (!nodes_.empty()) stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t node = stack[--depth];
+    if (hull.misses(nodes_[node])) continue;
+    if (2 * node + 1 < nodes_.size()) {
+      stack[depth++] = 2 * node + 2;
+      stack[depth++] = 2 * node + 1;
+      continue;
+    }
+    const Range range = range_of(node);
+    for (std::uint32_t k = range.first; k < range.end; ++k) {
+      if (!hull.misses(drawn_[order_[k]]) && !visit(order_[k])) return false;
+    }
+  }
+  return true;
+}
 
 template <class Visit>
 void RayTree::visit_blockers(const Ray& ray, bool ends, Visit visit) const {

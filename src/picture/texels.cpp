@@ -166,7 +166,10 @@ void show_beyond_white(const Cell& cell, Ramp* ramp, const SampleRow& row, std::
                  : add_samples<kChannels, true>(ramp, row, x, count);
 }
 
-template <std::uint32_t kChannels>
+/// Where lookups go: to the screen, clipped at white, or to sums as they are.
+enum class Target { kScreen, kSums };
+
+template <std::uint32_t kChannels, Target kTarget>
 inline void show_in_cell(const Cell& cell, const Course& course, const SampleRow& row, std::int32_t x,
                          std::int32_t count) {
   Ramp ramp[kChannels];
@@ -181,6 +184,7 @@ inline void show_in_cell(const Cell& cell, const Course& course, const SampleRow
     set(1);
     set(2);
   }
+  if constexpr (kTarget == Target::kSums) return add_samples<kChannels, false>(ramp, row, x, count);
   if (bits >= static_cast<std::int32_t>(kWhite)) {  // a power of two
     show_beyond_white<kChannels>(cell, ramp, row, x, count);
   } else if (row.shift == 0) {
@@ -190,7 +194,7 @@ inline void show_in_cell(const Cell& cell, const Course& course, const SampleRow
   }
 }
 
-template <std::uint32_t kChannels>
+template <std::uint32_t kChannels, Target kTarget>
 void show_cells(const MapTexels& map, const MapPiece& piece, const SampleRow& row) {
   PieceAxis u(piece.u, piece.du), v(piece.v, piece.dv);
   std::int32_t stay_u = u.stay(piece.length), stay_v = v.stay(piece.length);
@@ -199,7 +203,7 @@ void show_cells(const MapTexels& map, const MapPiece& piece, const SampleRow& ro
     std::int32_t count = stay_u < stay_v ? stay_u : stay_v;
     if (count > end - x) count = end - x;
     if (count > kMostTogether) count = kMostTogether;
-    show_in_cell<kChannels>(cell_at<kChannels>(map, u.cell, v.cell), course_of(u, v), row, x, count);
+    show_in_cell<kChannels, kTarget>(cell_at<kChannels>(map, u.cell, v.cell), course_of(u, v), row, x, count);
     x += count;
     u.move(count);
     v.move(count);
@@ -229,10 +233,15 @@ void show_each(const MapTexels& map, const MapPiece& piece, const SampleRow& row
   }
 }
 
+/// Whether cells are worth looking for.
+bool is_slow(const MapPiece& piece) {
+  const auto slow = [](std::int32_t step) { return step <= kFastest && step >= -kFastest; };
+  return slow(piece.du) && slow(piece.dv);
+}
+
 template <std::uint32_t kChannels>
 void show(const MapTexels& map, const MapPiece& piece, const SampleRow& row) {
-  const auto slow = [](std::int32_t step) { return step <= kFastest && step >= -kFastest; };
-  slow(piece.du) && slow(piece.dv) ? show_cells<kChannels>(map, piece, row) : show_each(map, piece, row);
+  is_slow(piece) ? show_cells<kChannels, Target::kScreen>(map, piece, row) : show_each(map, piece, row);
 }
 
 }  // namespace
@@ -264,6 +273,23 @@ void PieceLookup::next(std::uint32_t (&steps)[3]) {
 
 void show_piece(const MapTexels& map, const MapPiece& piece, const SampleRow& row) {
   map.channels == 1 ? show<1>(map, piece, row) : show<3>(map, piece, row);
+}
+
+void add_piece(const MapTexels& map, const MapPiece& piece, std::uint32_t* steps) {
+  if (is_slow(piece)) {
+    SampleRow row;
+    row.sums = steps;
+    row.channels = map.channels;
+    if (map.channels == 1) return show_cells<1, Target::kSums>(map, piece, row);
+    return show_cells<3, Target::kSums>(map, piece, row);
+  }
+  PieceLookup lookup(map, piece);
+  steps += static_cast<std::uint32_t>(piece.x) * map.channels;
+  for (std::int32_t k = 0; k < piece.length; ++k, steps += map.channels) {
+    std::uint32_t here[3];
+    lookup.next(here);
+    for (std::uint32_t c = 0; c < map.channels; ++c) steps[c] += here[c];
+  }
 }
 
 }  // namespace shodo

@@ -69,4 +69,7 @@ void show_plain(const SampleRow& row, std::int32_t x0, std::int32_t x1, const st
 /// The samples of a piece, at most white each.
 void show_piece(const MapTexels& map, const MapPiece& piece, const SampleRow& row);
 
+/// Adds them to steps[x * channels + channel], beyond white too (optics.h).
+void add_piece(const MapTexels& map, const MapPiece& piece, std::uint32_t* steps);
+
 }  // namespace shodo

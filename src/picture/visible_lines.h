@@ -52,6 +52,7 @@ class VisibleLines {
   }
   /// The triangle whose map it takes (map_plane.h).
   std::uint32_t map_of(std::uint32_t triangle) const { return map_of_[triangle]; }
+  std::span<const std::uint32_t> carriers() const { return map_of_; }
   std::uint32_t row() const { return row_; }
   /// Times that fixed point did not decide.
   std::uint64_t exact_comparisons() const { return exact_comparisons_; }

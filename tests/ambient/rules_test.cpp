@@ -361,6 +361,32 @@ TEST(Blocks, ErrorToZeroGivesTheAnswerWithoutBlocks) {
   EXPECT_LT(last, 1e-9);  // the same pairs, summed in another order
 }
 
+/// What is displayed as white counts as white: a garden in the sun must not make all that is indoors too dark to matter.
+TEST(Blocks, ASunlitFieldOutsideTakesNoCareFromARoom) {
+  const std::string room = furnished(kRho, 2);
+  const std::string field = "object field\nquad white -40 -40 -1  -40 40 -1  40 40 -1  40 -40 -1 patches 8 8 sub 1 1\n";
+  const std::uint32_t meshes = 8;
+  double apart[2];
+  for (const bool outside : {false, true}) {
+    const std::string text = outside ? room + field : room;
+    AmbientScene none(text, with_rules({})), some(text, with_rules(blocks(2e-4)));
+    double squares = 0, sum = 0, area = 0;
+    for (AmbientScene* scene : {&none, &some}) {
+      scene->light([&](const Vec3& p, std::uint32_t m) { return m == meshes ? 1e5 : e0_of(p, m); });
+      ASSERT_TRUE(scene->solve().done());
+    }
+    for (std::size_t i = 0; i < none.patches.size() && none.patches[i].mesh < meshes; ++i) {
+      const double difference = some.total(i) - none.total(i);
+      squares += none.patches[i].area * difference * difference;
+      sum += none.patches[i].area * none.total(i);
+      area += none.patches[i].area;
+    }
+    apart[outside ? 1 : 0] = std::sqrt(squares / area) / (sum / area);
+  }
+  EXPECT_LT(apart[0], 0.02);  // REL times the root of some thousand links
+  EXPECT_LT(apart[1], apart[0]);  // 10 % when the field's 1e5 lx were the measure
+}
+
 /// Cost against size: at REL fixed, links must grow clearly slower than the square of the patches.
 TEST(Blocks, LinksGrowSlowerThanTheSquareOfThePatches) {
   std::vector<double> patches, links;

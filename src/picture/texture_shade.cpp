@@ -1,0 +1,161 @@
+#include "picture/texture_shade.h"
+
+#include <bit>
+
+#include "picture/display.h"
+#include "scene/mesh.h"
+
+namespace shodo {
+
+namespace {
+
+constexpr double kTolerance = 1.0 / 256;  // of a texel, and of a sub-patch
+
+double larger(double a, double b) { return a > b ? a : b; }
+
+/// What is left of s beyond whole repeats, 2^-32 each.
+std::uint32_t part_of_repeat(double s) {
+  const double whole = static_cast<double>(static_cast<std::int64_t>(s));
+  const double part = s - whole < 0 ? s - whole + 1 : s - whole;
+  const std::uint32_t upper = static_cast<std::uint32_t>(fixed_point(part, 16));
+  return upper << 16 | static_cast<std::uint32_t>(fixed_point(part * 65536 - upper, 16));
+}
+
+double share_of(std::int32_t reach) { return reach == 0 ? 0 : 1.0 / reach; }
+
+MapPiece piece_of(std::int32_t reach, const TexturePlace& start, const TexturePlace& end) {
+  const double share = share_of(reach);
+  return {0, 0, fixed_point(start.u, 12), fixed_point(start.v, 12), fixed_point((end.u - start.u) * share, 16),
+          fixed_point((end.v - start.v) * share, 16)};
+}
+
+}  // namespace
+
+std::int32_t fixed_point(double a, int bits) {
+  const double scaled = a * static_cast<double>(std::int64_t{1} << bits);
+  if (scaled >= 2147483647.0) return 2147483647;
+  return scaled <= -2147483647.0 ? -2147483647 : static_cast<std::int32_t>(scaled);
+}
+
+bool find_mesh_textures(const Scene& scene, Arena& arena, std::span<MeshTexture>& textures) {
+  if (scene.textures.empty()) return true;
+  if (!arena.take("textures of meshes", scene.meshes.size(), textures)) return false;
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+    const Mesh& mesh = scene.meshes[m];
+    MeshTexture& at = textures[m] = {};
+    at.texture = texture_of(scene, mesh);
+    if (at.texture == kNone) continue;
+    const Texture& texture = scene.textures[at.texture];
+    const Repeats repeats = texture_repeats(scene, mesh, texture);
+    at.repeats = texture.size_u != 0;
+    at.s = repeats.u / mesh.map_width();
+    at.t = repeats.v / mesh.map_height();
+  }
+  return true;
+}
+
+std::uint64_t mesh_texture_bytes(const Scene& scene) {
+  return scene.textures.empty() ? 0 : (sizeof(MeshTexture) * std::uint64_t{scene.meshes.size()} + 7) / 8 * 8;
+}
+
+TextureShade::TextureShade(const Scene& scene, const Mesh& mesh, const MeshTexture& at, const MapTexels& map)
+    : texture_(scene.textures[at.texture]), at_(at), map_(map), linear_(scene.texture_linear) {
+  while (levels_ < kMostTextureLevels) {
+    level_[levels_] = texture_level(texture_, levels_);
+    ++levels_;
+    if (level_[levels_ - 1].width == 1 && level_[levels_ - 1].height == 1) break;
+  }
+  const Display& display = scene.display;
+  const std::uint32_t source = scene.objects[mesh.object].light;
+  for (std::uint32_t c = 0; c < map.channels; ++c) {
+    const Light* const light = source == kNone ? nullptr : &scene.lights[source];
+    const double emitted = light == nullptr ? 0 : light->strength * light->colour.c[c];
+    const double steps = (emitted - display.min_cd_m2) / (display.max_cd_m2 - display.min_cd_m2);
+    offset_[c] = fixed_point(steps * kWhite / 2, 0);  // half of it can be doubled
+    const double mean = texture_.mean[c] + 0.5;
+    mean_[c] = mean >= 1 ? static_cast<std::uint32_t>(fixed_point(mean, 0)) : 1;
+  }
+}
+
+double TextureShade::texels(double du, double dv) const {
+  return larger(magnitude(du) * at_.s * texture_.width, magnitude(dv) * at_.t * texture_.height);
+}
+
+bool TextureShade::straight(const TexturePlace& a, const TexturePlace& b) const {
+  const double near = larger(a.inverse_depth, b.inverse_depth), far = a.inverse_depth + b.inverse_depth - near;
+  const double texels = larger(magnitude(a.s - b.s) * texture_.width, magnitude(a.t - b.t) * texture_.height);
+  const double sub_patches = larger(magnitude(a.u - b.u), magnitude(a.v - b.v));
+  const double texel = larger(1, a.step < b.step ? a.step : b.step);
+  return (near - far) * larger(texels, sub_patches * texel) <= 4 * kTolerance * far * texel;
+}
+
+/// Half a repeat a sample or more is too coarse for any pattern; the last level shows the mean wherever it is.
+TextureShade::Course::Course(const TextureShade& shade, std::int32_t reach, const TexturePlace& start,
+                             const TexturePlace& end)
+    : shade_(shade), light_(shade.map_, piece_of(reach, start, end)), s_(part_of_repeat(shade.inside(start.s))),
+      t_(part_of_repeat(shade.inside(start.t))), step_(static_cast<std::uint32_t>(fixed_point(start.step, 16))),
+      ds_(fixed_point((end.s - start.s) * share_of(reach), 32)),
+      dt_(fixed_point((end.t - start.t) * share_of(reach), 32)),
+      dstep_(fixed_point((end.step - start.step) * share_of(reach), 16)) {}
+
+void TextureShade::Course::next(std::uint32_t (&steps)[3], std::uint32_t most) {
+  std::uint32_t value[3];
+  light_.next(steps);
+  shade_.look_up(s_, t_, step_, value);
+  for (std::uint32_t c = 0; c < shade_.map_.channels; ++c) {
+    steps[c] = shade_.shown(steps[c], value[shade_.texture_.channels == 1 ? 0 : c], c, most);
+  }
+  s_ += static_cast<std::uint32_t>(ds_);
+  t_ += static_cast<std::uint32_t>(dt_);
+  step_ += static_cast<std::uint32_t>(dstep_);
+}
+
+/// Linear, of 65535. `step`: texels of level 0 a sample, 16.16.
+void TextureShade::look_up(std::uint32_t s, std::uint32_t t, std::uint32_t step, std::uint32_t (&value)[3]) const {
+  std::uint32_t level = 0, weight = 0;
+  if (step > 65536) {
+    level = static_cast<std::uint32_t>(std::bit_width(step)) - 17;
+    weight = step >> (level + 8) & 255;
+  }
+  if (level >= levels_ - 1) level = levels_ - 1, weight = 0;
+  bilinear(level, s, t, value);
+  if (weight == 0) return;
+  std::uint32_t coarse[3];
+  bilinear(level + 1, s, t, coarse);
+  for (std::uint32_t c = 0; c < texture_.channels; ++c) value[c] = (value[c] * (256 - weight) + coarse[c] * weight) >> 8;
+}
+
+TextureShade::Axis TextureShade::axis_at(std::uint32_t at, std::uint32_t count) const {
+  const std::int64_t place = static_cast<std::int64_t>(std::uint64_t{at} * count >> 16) - 32768;
+  const std::int32_t low = static_cast<std::int32_t>(place >> 16), last = static_cast<std::int32_t>(count) - 1;
+  const std::uint32_t weight = static_cast<std::uint32_t>(place >> 8 & 255);
+  const auto texel = [&](std::int32_t k) {
+    if (k < 0) return static_cast<std::uint32_t>(at_.repeats ? last : 0);
+    if (k > last) return static_cast<std::uint32_t>(at_.repeats ? 0 : last);
+    return static_cast<std::uint32_t>(k);
+  };
+  return {texel(low), texel(low + 1), weight};
+}
+
+void TextureShade::bilinear(std::uint32_t of, std::uint32_t s, std::uint32_t t, std::uint32_t (&value)[3]) const {
+  const TextureLevel& level = level_[of];
+  const std::uint32_t channels = texture_.channels;
+  const Axis x = axis_at(s, level.width), y = axis_at(t, level.height);
+  const std::uint8_t* const low = level.texel + std::size_t{y.low} * level.width * channels;
+  const std::uint8_t* const high = level.texel + std::size_t{y.high} * level.width * channels;
+  for (std::uint32_t c = 0; c < channels; ++c) {
+    const auto along = [&](const std::uint8_t* row) {
+      return linear_[row[x.low * channels + c]] * (256 - x.weight) + linear_[row[x.high * channels + c]] * x.weight;
+    };
+    value[c] = (along(low) * (256 - y.weight) + along(high) * y.weight) >> 16;
+  }
+}
+
+/// Display steps of reflected light `light`.
+std::uint32_t TextureShade::shown(std::uint32_t light, std::uint32_t value, std::uint32_t c, std::uint32_t most) const {
+  const std::uint32_t reflected = (light * value + mean_[c] / 2) / mean_[c];  // below 2^32: 65535^2 + 32767
+  const std::int64_t steps = std::int64_t{reflected} + 2 * std::int64_t{offset_[c]};
+  return steps < 0 ? 0 : steps > most ? most : static_cast<std::uint32_t>(steps);
+}
+
+}  // namespace shodo
