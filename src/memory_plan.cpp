@@ -119,7 +119,7 @@ PartText plan_part_text(PlanPart part) {
        "2 n a level of blocks; with blocks 20 a node + 4 blocks + "
        "32 meshes + 39 facets (24 of them in steps of 64)"},
       {"solution",
-       "16 c + 8 a node (+ 2 with rules 1 and 2, 16 with 2+) + one "
+       "16 c + 8 a node (16 more in grey, + 2 with rules 1 and 2, 16 with 2+) + one "
        "row + the coarse correction + 2,300; rows: what is left"},
       {"ambient light by channel, over mirrors", "8 c n where panes are coloured, 24 c n with --mirror-light on"},
       {"direct light of the sub-patches", "(4 c + 1) s, (4 c + 3) s with --gather on; spare: given up to the rows"},

@@ -16,52 +16,46 @@ namespace {
 /// Rule 2+.
 bool repeats(const Rules& rules) { return features::kRules && rules.rule2_repeated; }
 
-/// The first pass notes two errors a node. The fluxes sent aren't there yet: they have room for as many as there are
-/// channels. In a grey scene the second stand where the answer will be, but that is by patch, too few with blocks.
-/// With rule 2+ errors must stay while rows are solved.
-std::size_t own_errors(const Scene& scene, const Rules& rules) {
-  const std::size_t nodes = node_count(scene, rules);
-  if (repeats(rules)) return 2 * nodes;
-  return scene.channels == 1 && nodes > scene.patch_count ? nodes : 0;
-}
+/// The first pass notes two errors a node. The fluxes sent aren't there yet: with three channels they have room for
+/// them, in a grey scene what ambient/slow_light.h has of its own. With rule 2+ errors must stay while rows are solved.
+std::size_t own_errors(const Rules& rules, std::size_t nodes) { return repeats(rules) ? 2 * nodes : 0; }
+std::size_t own_spare(const Scene& scene, std::size_t nodes) { return scene.channels == 1 ? 2 * nodes : 0; }
 
-FirstPassScratch first_pass_scratch(const Solver& solver, const Rules& rules, std::size_t nodes) {
-  if (repeats(rules)) return {solver.row_errors.first(nodes), solver.row_errors.subspan(nodes), solver.gathered};
-  const std::span<double> second = solver.sent.size() >= 2 * nodes ? solver.sent.subspan(nodes, nodes)
-                                   : solver.row_errors.empty()     ? solver.ambient_lx
-                                                                   : solver.row_errors;
-  return {solver.sent.first(nodes), second, solver.gathered};
+FirstPassScratch first_pass_scratch(const Solver& solver, std::size_t nodes) {
+  const std::span<double> errors = !solver.row_errors.empty() ? solver.row_errors
+                                   : !solver.spare.empty()    ? solver.spare
+                                                              : solver.sent;
+  return {errors.first(nodes), errors.subspan(nodes, nodes), solver.gathered};
 }
 
 /// Taken before the rows, which then fill what is left.
 bool take_solver(Arena& arena, const Scene& scene, const Rules& rules, std::size_t nodes, Solver& solver) {
   const std::size_t values = nodes * scene.channels;
-  const std::size_t groups = Coarse::group_count(scene);
+  const std::size_t groups = Coarse::group_count(scene, rules);
   return arena.take("fluxes sent", values, solver.sent) && arena.take("fluxes gathered", values, solver.gathered) &&
          arena.take("mesh areas", groups, solver.group_area) &&
          arena.take("mesh reflectances", groups * scene.channels, solver.group_reflectance) &&
          arena.take("mesh corrections", groups, solver.group_delta) &&
-         arena.take("row errors", own_errors(scene, rules), solver.row_errors);
+         arena.take("row errors", own_errors(rules, nodes), solver.row_errors) &&
+         arena.take("solver's vectors", own_spare(scene, nodes), solver.spare);
 }
 
 std::uint64_t solver_bytes(const Scene& scene, const Options& options) {
-  const std::uint64_t values = std::uint64_t{node_count(scene, options.rules)} * scene.channels;
-  return 16 * values + 8 * std::uint64_t{Coarse::group_count(scene)} * (2 + scene.channels) +
-         8 * std::uint64_t{own_errors(scene, options.rules)};
+  const std::size_t nodes = node_count(scene, options.rules);
+  return 16 * std::uint64_t{nodes} * scene.channels +
+         8 * std::uint64_t{Coarse::group_count(scene, options.rules)} * (2 + scene.channels) +
+         8 * std::uint64_t{own_errors(options.rules, nodes) + own_spare(scene, nodes)};
 }
 
 /// Once; with rule 2+ until no column that is left out is bright.
 Status solve_in_rounds(const DirectLight& direct, Intersector& intersector, const Progress& progress, Matrix& matrix,
                        Solver& solver, Statistics& statistics) {
-  const FirstPassScratch first = first_pass_scratch(solver, matrix.options->rules, matrix.surfaces.size());
+  const FirstPassScratch first = first_pass_scratch(solver, matrix.surfaces.size());
   do {
     Status status = build_matrix(direct, progress, intersector, first, matrix, statistics);
     statistics.segments_ambient = intersector.segments(LightSet::kAmbient);
     statistics.tests_ambient = intersector.tests(LightSet::kAmbient);
     if (!status.done()) return status;
-    if (first.visibility_errors.data() == solver.ambient_lx.data()) {
-      for (double& value : solver.ambient_lx) value = 0;
-    }
     status = solve_rows(direct, intersector, progress, matrix, solver, statistics);
     if (!status.done()) return status;
   } while (repeats(matrix.options->rules) && matrix.sparsity.restore(matrix.surfaces, direct, solver.ambient_lx));

@@ -14,9 +14,9 @@ namespace shodo {
 std::uint64_t ambient_result_bytes(const Scene& scene);
 
 /// The least the stage needs of the arena, AmbientLight included, with no row kept:
-///   8 n c (result) + 16 n c (fluxes) + 8 n (factors) + 4 n (one row; 10 n with double values) + the coarse correction,
-///   at most 23 KiB + link_bytes() + surfaces_bytes(): 64 n with 4 samples each + 96 a shape where geometry is kept,
-///   else 12 n.
+///   8 n c (result) + 16 n c (fluxes; 32 n if c = 1) + 8 n (factors) + 4 n (one row; 10 n with double values) + the
+///   coarse correction, at most 23 KiB + n, + link_bytes() + surfaces_bytes(): 64 n with 4 samples each + 96 a shape
+///   where geometry is kept, else 12 n.
 /// n patches, c channels; with blocks n counts nodes in all but the result.
 /// Everything that the arena has beyond it goes to rows, and is given back at the end of the stage: what follows can
 /// use all but AmbientLight, so no reserve is kept for it.

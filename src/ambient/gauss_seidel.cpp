@@ -1,20 +1,25 @@
 #include "ambient/gauss_seidel.h"
 
+#include "ambient/slow_light.h"
 #include "base/features.h"
 
 namespace shodo {
 
 namespace {
 
-/// Settled sweeps in which no change is less than the least of as many before: after them nothing better is expected.
+/// Sweeps in which no change is less than the least of as many before: after them nothing better is expected.
 constexpr std::uint32_t kPatience = 30;
 /// Sweeps with larger changes than the sweep before, after which corrections are no longer tried.
 constexpr std::uint32_t kSetbacks = 3;
+/// So many sweeps are always made, and more if so few a channel are likely to be enough; else ambient/slow_light.h.
+constexpr std::uint32_t kFirstSweeps = 6, kFewSweeps = 12;
+/// Of the tolerance, what conjugate gradients are asked for: a sweep's changes are larger than residuals. Each time the
+/// sweep after them isn't content they are asked for the same part of it.
+constexpr double kPartOfBound = 0.25, kLeastPart = 1e-4;
 
 /// By channel: what a sweep changed at most, and the largest illuminance.
 struct SweepResult {
   double change[3] = {0, 0, 0};
-  double missed[3] = {0, 0, 0};  // at most, by how much values were left beside what their row asks for
   double largest[3] = {0, 0, 0};
   bool finished = true;
 
@@ -32,7 +37,6 @@ struct Run {
   Solver& solver;
   std::uint32_t channels;
   bool doubles;
-  double relaxation = 1;  // a patch goes so many times the way that its row asks for
 };
 
 /// 0 as a template's argument: known only now.
@@ -74,48 +78,13 @@ void update(Run& run, std::uint32_t i, std::uint32_t group, const double* reflec
   const std::uint32_t channels = channels_of<kChannels>(run);
   for (std::uint32_t c = 0; c < channels; ++c) {
     const std::size_t at = std::size_t{surfaces.patch_at[i]} * channels + c;
-    const double asked = factor * sum[c], before = run.solver.ambient_lx[at];
-    double ambient = asked;
-    if (run.relaxation > 1) {
-      ambient = before + run.relaxation * (asked - before);
-      if (ambient < 0) ambient = 0;
-      if (magnitude(asked - ambient) > result.missed[c]) result.missed[c] = magnitude(asked - ambient);
-    }
-    const double change = ambient - before;
+    const double ambient = factor * sum[c], change = ambient - run.solver.ambient_lx[at];
     const double total = run.direct.patch_lx[at] + ambient;
     run.solver.ambient_lx[at] = ambient;
     run.solver.sent[std::size_t{i} * channels + c] = run.matrix.sparsity.sends(i) ? reflectance[c] * root * total : 0;
     run.matrix.coarse.add_change(group, c, root * root, change);
     if (magnitude(change) > result.change[c]) result.change[c] = magnitude(change);
     if (magnitude(total) > result.largest[c]) result.largest[c] = magnitude(total);
-  }
-}
-
-/// What a block gathered goes to its parts.
-template <std::uint32_t kChannels>
-void hand_down(Run& run, std::uint32_t b, const double* sum) {
-  const Surfaces& surfaces = run.matrix.surfaces;
-  const std::uint32_t channels = channels_of<kChannels>(run);
-  for (std::uint32_t child = b + 1; child < surfaces.end(b); child = surfaces.end(child)) {
-    const double share = surfaces.share(child, b);
-    double* to = &run.solver.gathered[std::size_t{child} * channels];
-    for (std::uint32_t c = 0; c < channels; ++c) to[c] += share * sum[c];
-  }
-}
-
-/// What the blocks among the nodes from `begin` to `end` send: the sum of their parts.
-void sum_up(Run& run, std::uint32_t begin, std::uint32_t end) {
-  const Surfaces& surfaces = run.matrix.surfaces;
-  const std::uint32_t channels = surfaces.scene->channels;
-  for (std::uint32_t b = end; b-- > begin;) {
-    if (!surfaces.is_block(b) || !(surfaces.root_area[b] > 0)) continue;
-    double* sent = &run.solver.sent[std::size_t{b} * channels];
-    for (std::uint32_t c = 0; c < channels; ++c) sent[c] = 0;
-    for (std::uint32_t child = b + 1; child < surfaces.end(b); child = surfaces.end(child)) {
-      const double share = surfaces.share(child, b);
-      const double* from = &run.solver.sent[std::size_t{child} * channels];
-      for (std::uint32_t c = 0; c < channels; ++c) sent[c] += share * from[c];
-    }
   }
 }
 
@@ -144,8 +113,8 @@ void sweep_node(Run& run, SweepState& state, std::uint32_t i, const MeshWalk& at
     if (!matrix.keeps(g, i)) in_scratch = g;
     gather<kFormat, kChannels>(run, row[g], i, sum);
   }
-  if (matrix.surfaces.is_block(i)) return hand_down<kChannels>(run, i, sum);
-  update<kChannels>(run, i, matrix.coarse.group_of_mesh(at_i.place()), at_i.reflectance(), sum, state.result);
+  if (matrix.surfaces.is_block(i)) return hand_down<kChannels>(matrix.surfaces, i, sum, run.solver.gathered);
+  update<kChannels>(run, i, matrix.coarse.group_at(i, at_i.place()), at_i.reflectance(), sum, state.result);
   // No column is in two generations, so their order doesn't matter: the last, if it isn't kept, is still at hand.
   for (std::uint32_t g = matrix.generations(); g-- > 0;) {
     if (!matrix.keeps(g, i) && g != in_scratch) row[g] = state.rows[g].row(matrix, state.uncounted, i);
@@ -157,7 +126,7 @@ void sweep_node(Run& run, SweepState& state, std::uint32_t i, const MeshWalk& at
 template <RowFormat kFormat, std::uint32_t kChannels>
 void send_blocks(Run& run, SweepState& state, RowCursor* rows, std::uint32_t begin, std::uint32_t end) {
   Matrix& matrix = run.matrix;
-  sum_up(run, begin, end);
+  sum_up(matrix.surfaces, begin, end, run.channels, run.solver.sent);
   for (std::uint32_t i = begin; i < end; ++i) {
     for (std::uint8_t g = 0; g < matrix.generations(); ++g) {
       if (!matrix.surfaces.is_block(i) || !(matrix.surfaces.root_area[i] > 0)) {
@@ -218,7 +187,7 @@ void correct_and_send(Run& run, std::uint32_t c) {
     const std::size_t patch = std::size_t{surfaces.patch_at[i]} * channels + c;
     double& ambient = run.solver.ambient_lx[patch];
     if (sparsity.receives(i) && ambient > 0) {
-      ambient += run.solver.group_delta[run.matrix.coarse.group_of_mesh(at.place())];
+      ambient += run.solver.group_delta[run.matrix.coarse.group_at(i, at.place())];
     }
     if (ambient < 0) ambient = 0;
     const double total = run.direct.patch_lx[patch] + ambient;
@@ -230,11 +199,19 @@ void correct_and_send(Run& run, std::uint32_t c) {
 void correct(Run& run) {
   const std::uint32_t groups = run.matrix.coarse.groups();
   for (std::uint32_t c = 0; c < run.matrix.surfaces.scene->channels; ++c) {
-    run.matrix.coarse.solve(c, run.relaxation, run.solver.group_area,
-                            run.solver.group_reflectance.subspan(c * groups, groups), run.solver.group_delta);
+    run.matrix.coarse.correct(c, run.solver.group_area, run.solver.group_reflectance.subspan(c * groups, groups),
+                              run.solver.group_delta);
     correct_and_send(run, c);
   }
-  sum_up(run, 0, run.matrix.surfaces.size());
+  sum_up(run.matrix.surfaces, 0, run.matrix.surfaces.size(), run.channels, run.solver.sent);
+}
+
+/// Every patch sends the light it has.
+void send_all(Run& run) {
+  for (double& value : run.solver.sent) value = 0;
+  for (double& value : run.solver.group_delta) value = 0;
+  for (std::uint32_t c = 0; c < run.channels; ++c) correct_and_send(run, c);
+  sum_up(run.matrix.surfaces, 0, run.matrix.surfaces.size(), run.channels, run.solver.sent);
 }
 
 /// Areas and mean reflectances of the groups; every patch sends the light it has.
@@ -242,15 +219,13 @@ void prepare(Run& run) {
   const Surfaces& surfaces = run.matrix.surfaces;
   const std::uint32_t groups = run.matrix.coarse.groups(), channels = surfaces.scene->channels;
   Solver& solver = run.solver;
-  for (double& value : solver.sent) value = 0;
   for (double& value : solver.group_area) value = 0;
   for (double& value : solver.group_reflectance) value = 0;
-  for (double& value : solver.group_delta) value = 0;
   MeshWalk at(surfaces, 0);
   for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
     at.go_to(i);
     if (surfaces.is_block(i)) continue;
-    const std::uint32_t g = run.matrix.coarse.group_of_mesh(at.place());
+    const std::uint32_t g = run.matrix.coarse.group_at(i, at.place());
     const double area = surfaces.root_area[i] * surfaces.root_area[i];
     solver.group_area[g] += area;
     for (std::uint32_t c = 0; c < channels; ++c) {
@@ -262,8 +237,7 @@ void prepare(Run& run) {
       solver.group_reflectance[c * groups + g] /= solver.group_area[g];
     }
   }
-  for (std::uint32_t c = 0; c < channels; ++c) correct_and_send(run, c);
-  sum_up(run, 0, surfaces.size());
+  send_all(run);
 }
 
 /// The certified bound relative to the largest illuminance, and the part of it that no sweep takes away.
@@ -281,8 +255,7 @@ Bound bound_after(const Run& run, const SweepResult& result) {
   for (std::uint32_t c = 0; c < run.matrix.surfaces.scene->channels; ++c) {
     const double left = 1 - run.matrix.reflected[c] * (1 + rounding);  // the sums themselves are rounded
     if (!(left > 0)) return {kNoBound, 0};
-    const double from_changes =
-        run.matrix.reflected_upper[c] * (1 + rounding) * result.change[c] + (1 + rounding) * result.missed[c];
+    const double from_changes = run.matrix.reflected_upper[c] * (1 + rounding) * result.change[c];
     const double from_rounding = rounding * result.largest[c];
     const double error = (from_changes + from_rounding) / (left * largest);
     if (error > bound.error) bound = {error, from_rounding / (left * largest)};
@@ -290,20 +263,26 @@ Bound bound_after(const Run& run, const SweepResult& result) {
   return bound;
 }
 
-/// Tells when to stop, and whether corrections still help.
+double largest_change(const SweepResult& result) {
+  const double first = result.change[0] > result.change[1] ? result.change[0] : result.change[1];
+  return first > result.change[2] ? first : result.change[2];
+}
+
+/// Tells when to stop, whether corrections still help, and whether sweeps are too slow.
 struct Watch {
   double least = kInfinity;         // of the changes of these kPatience sweeps
   double least_before = kInfinity;  // and of those before
   double last = kInfinity;
-  std::uint32_t sweeps = 0;
+  double ratio = 0;                 // of the last two changes
+  std::uint32_t sweeps = 0;         // of kPatience
+  std::uint32_t all = 0;
   std::uint32_t setbacks = 0;
 
-  /// `settled`: changes may be compared with the sweep's before.
-  void note(double change, bool settled) {
-    const bool first = last == kInfinity;
-    if (settled && change > last) ++setbacks;
+  void note(double change) {
+    if (change > last) ++setbacks;
+    ratio = last > 0 && last < kInfinity ? change / last : 0;
     last = change;
-    if (first || !settled) return;  // the first has no correction before it
+    if (all++ == 0) return;  // no correction before it
     if (sweeps == kPatience) {
       least_before = least;
       least = kInfinity;
@@ -313,51 +292,24 @@ struct Watch {
     if (change < least) least = change;
   }
   bool hopeless() const { return sweeps == kPatience && !(least < least_before); }
+  /// Many more sweeps would be needed, going by the last.
+  bool slow(double error, double goal, std::uint32_t channels) const {
+    if (all < kFirstSweeps) return false;
+    for (std::uint32_t k = 0; k < kFewSweeps * channels && error > goal; ++k) error *= ratio;
+    return error > goal;
+  }
 };
 
-/// Over-relaxation (Young 1950; Hageman and Young 1981, 9) where changes fall slowly, as along a corridor or between
-/// plates: what the coarse correction can't represent. One sweep's largest change over the one before tells the rate;
-/// from it the eigenvalue of plain sweeps, and from that the best relaxation. Rooms converge before it starts.
-class Relaxation {
- public:
-  double value() const { return value_; }
-  /// Whether it has been the same for some sweeps.
-  bool settled() const { return value_ == 1 || sweeps_ >= kSettle; }
-  void note(double change) {
-    const double ratio = last_ > 0 ? change / last_ : 0;
-    last_ = change;
-    if (++sweeps_ <= kSettle) {
-      largest_ = 0;
-      return;
-    }
-    if (ratio > largest_) largest_ = ratio;
-    if (sweeps_ < kSettle + kWatch) return;
-    // Slower than the relaxation's own rate: the slowest mode isn't reached yet.
-    if (largest_ > kSlow && largest_ > value_ - 1 + kMargin) raise();
-    sweeps_ = value_ > 1 ? 0 : kSettle;
-    largest_ = 0;
+/// Conjugate gradients for every channel, to a part of what the bound is to be; then all is ready for a sweep.
+Status accelerate(Run& run, double goal, double largest, Statistics& statistics) {
+  for (std::uint32_t c = 0; c < run.channels; ++c) {
+    const SlowRun slow{run.direct, run.intersector, run.progress, run.matrix, run.solver, c};
+    const Status status = solve_slow_light(slow, goal * (1 - run.matrix.reflected[c]) * largest, statistics);
+    if (!status.done()) return status;
   }
-
- private:
-  static constexpr std::uint32_t kSettle = 6, kWatch = 4;
-  static constexpr double kSlow = 0.5, kMargin = 0.02, kMost = 1.97;
-
-  void raise() {
-    const double rate = largest_ < 1 ? largest_ : 1;
-    const double of_both = rate + value_ - 1;
-    const double plain = of_both * of_both / (rate * value_ * value_);
-    const double best = plain < 1 ? 2 / (1 + square_root(1 - plain)) : kMost;
-    const double next = best < kMost ? best : kMost;
-    if (next > value_) value_ = next;
-  }
-
-  double value_ = 1, last_ = 0, largest_ = 0;
-  std::uint32_t sweeps_ = 0;
-};
-
-double largest_change(const SweepResult& result) {
-  const double first = result.change[0] > result.change[1] ? result.change[0] : result.change[1];
-  return first > result.change[2] ? first : result.change[2];
+  send_all(run);
+  for (double& value : run.solver.gathered) value = 0;
+  return {};
 }
 
 }  // namespace
@@ -368,7 +320,7 @@ Status solve_rows(const DirectLight& direct, const Intersector& intersector, con
   const double tolerance = matrix.options->tolerance;
   prepare(run);
   Watch watch;
-  Relaxation relaxation;
+  double part = kPartOfBound;  // of the tolerance: what conjugate gradients are asked for
   Status status;
   for (;;) {
     const SweepResult result = sweep_once(run);
@@ -380,12 +332,17 @@ Status solve_rows(const DirectLight& direct, const Intersector& intersector, con
     const Bound bound = bound_after(run, result);
     statistics.solution_bound = bound.error;
     const double change = largest_change(result);
-    watch.note(change, relaxation.settled());
+    watch.note(change);
     const bool only_rounding = bound.error < kNoBound && bound.error <= 2 * bound.rounding;
     if (bound.error <= tolerance || only_rounding || !(change > 0) || watch.hopeless()) return status;
+    const double goal = tolerance > 2 * bound.rounding ? tolerance : 2 * bound.rounding;
+    if (bound.error < kNoBound && part > kLeastPart && watch.slow(bound.error, goal, run.channels)) {
+      status = accelerate(run, part * goal, result.largest_of_all(), statistics);
+      if (!status.done()) return status;
+      part *= kPartOfBound;
+      continue;
+    }
     if (watch.setbacks < kSetbacks) correct(run);
-    relaxation.note(change);
-    run.relaxation = relaxation.value();
   }
 }
 

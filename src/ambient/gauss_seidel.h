@@ -16,12 +16,12 @@
 // old_j), M = F rho, hence at most U max|new - old|, U the largest upper row sum of M; rounding adds at most (n + 16)
 // 2^-52 max E. With q the largest row sum of M the error of every a_i is at most
 //     (U max|new - old| + (n + 16) 2^-52 max E) / (1 - q).
-// With blocks U is q, and n counts them too. With over-relaxation, from the 11th sweep on where changes fall slowly, a
-// value is left beside what its row asks for, and the largest of these differences adds to U max|new - old|. It bounds
-// the error against the exact solution of the stored system. Sweeps end when it is within the tolerance, when rounding
-// is all that is left of it, or when nothing gets better any more in 30 sweeps (rows that sum to more than 1 / rho,
-// possible only without scaling: the bound is then kNoBound). Bytes: 16 channels a node for the fluxes, 8 g (2 +
-// channels) for means of the g meshes.
+// With blocks U is q, and n counts them too. It bounds the error against the exact solution of the stored system.
+// Sweeps end when it is within the tolerance, when rounding is all that is left of it, or when nothing gets better any
+// more in 30 sweeps (rows that sum to more than 1 / rho, possible only without scaling: the bound is then kNoBound).
+// Where after the 6th sweep twelve more a channel are not likely to do, conjugate gradients (ambient/slow_light.h) go
+// most of the way, and sweeps tell how far. Bytes: 16 channels a node for the fluxes (32 in grey scenes), 8 g (2 +
+// channels) for means of the g groups.
 #pragma once
 
 #include <span>
@@ -45,7 +45,8 @@ struct Solver {
   std::span<double> group_area;
   std::span<double> group_reflectance;  // [c * groups + g]: mean by area
   std::span<double> group_delta;
-  std::span<double> row_errors;         // first pass only, where other arrays have no room for them (ambient.cpp)
+  std::span<double> row_errors;         // rule 2+: two a node, which stay from round to round
+  std::span<double> spare;              // one channel: two a node, for the first pass and ambient/slow_light.h
 };
 
 /// Solves; `solver.gathered` is zero, the rest is filled here. Errors: kInterrupted.

@@ -74,17 +74,17 @@ void spread_row(FirstPass& pass, std::uint32_t i, const MeshWalk& at_i, const st
   const Surfaces& surfaces = matrix.surfaces;
   const std::uint32_t channels = surfaces.scene->channels;
   const double sending_i = matrix.sending_root(i);
-  const std::uint32_t group_i = matrix.coarse.group_of_mesh(at_i.place());
+  const std::uint32_t mesh_i = matrix.coarse.group_of_mesh(at_i.place()), group_i = matrix.coarse.group(i, mesh_i);
   const LiveEnds ends_i = ends_of(matrix, i);
   MeshWalk at_j = at_i;
-  std::uint32_t group_j = group_i;
+  std::uint32_t mesh_j = mesh_i;
   const bool panes = pass.panes.any();
   const double solid_i = panes ? solid_part(surfaces, at_i.place(), pass.panes.channel()) : 1;
   double solid_j = solid_i;
   for (RowReader<kFormat> entry(row, i, matrix.doubles()); entry.next();) {
     const std::uint32_t j = entry.column();
     if (at_j.go_to(j)) {
-      group_j = matrix.coarse.group_of_mesh(at_j.place());
+      mesh_j = matrix.coarse.group_of_mesh(at_j.place());
       if (panes) solid_j = solid_part(surfaces, at_j.place(), pass.panes.channel());
     }
     const double v = entry.value();
@@ -98,7 +98,7 @@ void spread_row(FirstPass& pass, std::uint32_t i, const MeshWalk& at_i, const st
     const LiveEnds ends_j = ends_of(matrix, j);
     // Corrections count exchange that goes both ways only, so that their matrix is symmetric.
     const double both = ends_i.receivers > 0 && ends_j.receivers > 0 ? to_i * sending_i : 0;
-    if (both > 0) matrix.coarse.add_exchange(group_i, group_j, both);
+    if (both > 0) matrix.coarse.add_exchange(group_i, matrix.coarse.group(j, mesh_j), both);
     pass.statistics.nonzeros += ends_i.receivers * ends_j.senders + ends_j.receivers * ends_i.senders;
     ++pass.statistics.links;
     if (surfaces.is_block(i) || surfaces.is_block(j)) ++pass.statistics.block_links;
@@ -142,7 +142,7 @@ void finish_row(FirstPass& pass, std::uint32_t i, const MeshWalk& at_i, const Up
   if (scale != 1) ++pass.statistics.rows_scaled;
   const double factor = scale / root;
   matrix.factor[i] = factor;
-  matrix.coarse.add_row(matrix.coarse.group_of_mesh(at_i.place()), root / factor);
+  matrix.coarse.add_row(matrix.coarse.group_at(i, at_i.place()), root / factor);
   for (std::uint32_t c = 0; c < channels; ++c) {
     double& lower = pass.scratch.reflected[i * channels + c];
     const double sum = factor * (lower + upper.reflected[c]);
@@ -232,7 +232,7 @@ Status prepare_matrix(const DirectLight& direct, Arena& arena, Matrix& matrix) {
   if (!status.done()) return status;
   if (!arena.take("row factors", n, matrix.factor)) return arena.refused();
   if (!arena.take("row scratch", scratch_words(scene, *matrix.options), matrix.row_words)) return arena.refused();
-  return matrix.coarse.take(arena, matrix.surfaces);
+  return matrix.coarse.take(arena, matrix.surfaces, matrix.options->rules);
 }
 
 Status build_matrix(const DirectLight& direct, const Progress& progress, Intersector& intersector,
@@ -268,7 +268,7 @@ std::uint64_t matrix_bytes(const Scene& scene, const Geometry& geometry, const O
   const std::uint64_t nodes = node_count(scene, options.rules);
   return Sparsity::bytes(scene, options.rules) + LinkWalk::bytes(scene, options) +
          BlockTools::bytes(scene, geometry, options) + 8 * nodes +
-         (2 * scratch_words(scene, options) + 7) / 8 * 8 + Coarse::bytes(scene);
+         (2 * scratch_words(scene, options) + 7) / 8 * 8 + Coarse::bytes(scene, options.rules);
 }
 
 }  // namespace shodo

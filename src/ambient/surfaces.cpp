@@ -296,6 +296,21 @@ Status gather_surfaces(const Scene& scene, const Geometry& geometry, std::span<c
   return {};
 }
 
+void sum_up(const Surfaces& surfaces, std::uint32_t begin, std::uint32_t end, std::uint32_t channels,
+            std::span<double> values) {
+  if (surfaces.blocks.empty()) return;
+  for (std::uint32_t b = end; b-- > begin;) {
+    if (!surfaces.is_block(b) || !(surfaces.root_area[b] > 0)) continue;
+    double* sum = &values[std::size_t{b} * channels];
+    for (std::uint32_t c = 0; c < channels; ++c) sum[c] = 0;
+    for (std::uint32_t child = b + 1; child < surfaces.end(b); child = surfaces.end(child)) {
+      const double share = surfaces.share(child, b);
+      const double* from = &values[std::size_t{child} * channels];
+      for (std::uint32_t c = 0; c < channels; ++c) sum[c] += share * from[c];
+    }
+  }
+}
+
 std::uint64_t surfaces_bytes(const Scene& scene, const Options& options, SurfacesKeep keep) {
   const std::uint64_t blocks = block_count(scene, options.rules), meshes = scene.meshes.size();
   const std::uint64_t n = scene.patch_count + blocks;

@@ -113,6 +113,21 @@ Status gather_surfaces(const Scene& scene, const Geometry& geometry, std::span<c
                        const DirectLight& direct, const Options& options, Arena& arena, Surfaces& surfaces,
                        SurfacesKeep keep = SurfacesKeep::kGeometry);
 
+/// Blocks among the nodes from `begin` to `end`: the sum of their parts' fluxes, each with its share. values[node *
+/// channels + c].
+void sum_up(const Surfaces& surfaces, std::uint32_t begin, std::uint32_t end, std::uint32_t channels,
+            std::span<double> values);
+/// Adds to the parts of a block their shares of `sum`, by channel.
+template <std::uint32_t kChannels>
+void hand_down(const Surfaces& surfaces, std::uint32_t block, const double* sum, std::span<double> values) {
+  const std::uint32_t channels = kChannels == 0 ? surfaces.scene->channels : kChannels;
+  for (std::uint32_t child = block + 1; child < surfaces.end(block); child = surfaces.end(child)) {
+    const double share = surfaces.share(child, block);
+    double* to = &values[std::size_t{child} * channels];
+    for (std::uint32_t c = 0; c < channels; ++c) to[c] += share * sum[c];
+  }
+}
+
 /// Arena bytes of gather_surfaces.
 std::uint64_t surfaces_bytes(const Scene& scene, const Options& options, SurfacesKeep keep);
 

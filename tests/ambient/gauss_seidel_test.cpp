@@ -99,6 +99,57 @@ TEST(GaussSeidel, NearlyWhiteRoomsNeedFewSweeps) {
   }
 }
 
+TEST(GaussSeidel, LightThatGoesFarInSmallStepsNeedsFewSweepsToo) {
+  // A corridor of a hundred times its width, a flat gap, plates a thousandth apart in squares and in strips: sweeps
+  // alone need hundreds to thousands. Several channels, and several meshes a group.
+  const std::string plates = "object plates\nquad white 0 0 0  1 0 0  1 1 0  0 1 0 patches %d %d sub 1 1\n"
+                             "quad white 0 0 1e-3  0 1 1e-3  1 1 1e-3  1 0 1e-3 patches %d %d sub 1 1\n";
+  const auto cut = [&](int n, int m) {
+    char text[300];
+    std::snprintf(text, sizeof text, plates.c_str(), n, m, m, n);
+    return std::string(text);
+  };
+  const std::string scenes[] = {box_walls(1, 1, 100, 1, 1, 60, "white"), box_walls(10, 10, 0.1, 12, 12, 1, "white"),
+                                cut(12, 12), cut(150, 1)};
+  for (const std::string& text : scenes) {
+    for (const double tolerance : {1e-2, 1e-4, 1e-8}) {
+      Options options;
+      options.tolerance = tolerance;
+      AmbientScene scene(grey(0.9999) + text, options);
+      scene.light([](const Vec3& p, std::uint32_t m) { return m == 0 ? 100 + 50 * p.x : 0; });
+      ASSERT_TRUE(scene.solve().done());
+      const Statistics statistics = scene.statistics;
+      EXPECT_LT(statistics.sweeps, 60u) << tolerance << ": " << text.substr(0, 100);
+      EXPECT_LE(statistics.solution_bound, tolerance);
+      EXPECT_LE(true_error(scene), statistics.solution_bound + 1e-15);
+    }
+  }
+}
+
+TEST(GaussSeidel, SlowLightIsFoundInEveryMemoryWithBlocksRulesAndColoursToo) {
+  // Three channels have their vectors elsewhere than one; columns that come back have errors that must stay.
+  const std::string coloured = "shodo 1\nmaterial white diffuse 0.9999 0.999 0.9\n", 
+                    corridor = box_walls(1, 1, 12, 2, 2, 8, "white");
+  for (const std::string& material : {coloured, grey(0.9999)}) {
+    for (const char* rules : {"none", "blocks", "3", "2+"}) {
+      Options options;
+      options.rules.blocks = std::string_view(rules) == "blocks";
+      options.rules.rule3 = std::string_view(rules) == "3";
+      options.rules.rule2 = options.rules.rule2_repeated = std::string_view(rules) == "2+";
+      SCOPED_TRACE(rules);
+      expect_same_bits_in_any_memory(
+          material + corridor, options,
+          [](const Vec3& p, std::uint32_t) { return p.z < 2 ? 100 + 50 * p.x : 0.0; }, {0},
+          [&](AmbientScene& tight, const Arena&, std::uint64_t) {
+            const Statistics statistics = tight.statistics;
+            EXPECT_GT(statistics.sweeps, 12u);  // what is tested is used
+            EXPECT_LE(statistics.solution_bound, options.tolerance);
+            EXPECT_LE(true_error(tight), statistics.solution_bound + 1e-15);
+          });
+    }
+  }
+}
+
 TEST(GaussSeidel, AToleranceBeyondRoundingEndsAndTellsTheBoundReached) {
   Options options;
   options.tolerance = 1e-30;

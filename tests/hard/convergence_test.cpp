@@ -199,7 +199,7 @@ TEST(Convergence, TheErrorFollowsTheToleranceAndTheBoundIsNeverBelowIt) {
                                 "object strips\nquad white 0 0 0  1 0 0  1 1 0  0 1 0 patches 40 1 sub 1 1\n"
                                 "quad white 0 0 1e-3  0 1 1e-3  1 1 1e-3  1 0 1e-3 patches 1 40 sub 1 1\n"};
   std::vector<double> tolerances, worst;
-  std::uint32_t sweeps = 0, slow = 0;
+  std::uint32_t sweeps = 0;
   for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8}) {
     double largest = 0;
     for (const std::string& text : scenes) {
@@ -213,11 +213,8 @@ TEST(Convergence, TheErrorFollowsTheToleranceAndTheBoundIsNeverBelowIt) {
         const double error = true_error(scene);
         EXPECT_LE(error, counted.solution_bound + 1e-15) << rho << ", " << tolerance << ": " << text.substr(0, 30);
         EXPECT_LE(counted.solution_bound, std::max(tolerance, 1e-9)) << rho;
-        // Along a corridor and between plates a thousandth apart, crosswise in strips, light goes round in ways that
-        // one value a mesh can't represent: over-relaxation takes them, not as fast.
-        const bool slowly = text.find("strips") != std::string::npos || text == corridor;
-        EXPECT_LT(counted.sweeps, !slowly ? 60u : tolerance >= 1e-4 ? 200u : 600u) << rho << ", " << tolerance;
-        (slowly ? slow : sweeps) = std::max(slowly ? slow : sweeps, counted.sweeps);
+        EXPECT_LT(counted.sweeps, 60u) << rho << ", " << tolerance << ": " << text.substr(0, 30);
+        sweeps = std::max(sweeps, counted.sweeps);
         largest = std::fmax(largest, error);
       }
     }
@@ -225,7 +222,7 @@ TEST(Convergence, TheErrorFollowsTheToleranceAndTheBoundIsNeverBelowIt) {
     worst.push_back(largest);
   }
   print("tolerance", tolerances, worst);
-  std::printf("             at most %u sweeps; in a corridor and between plates %u\n", sweeps, slow);
+  std::printf("             at most %u sweeps\n", sweeps);
   EXPECT_GT(slope(tolerances, worst), 0.8);
   EXPECT_LT(slope(tolerances, worst), 1.3);
 }

@@ -14,14 +14,14 @@ struct Hashes {
 };
 
 inline constexpr Hashes kHashes[] = {
-    {"box", 0xd1ce5376a206fe49, 0x6f39f1d73d03a684},
+    {"box", 0x35b3735f888ace3f, 0x6f39f1d73d03a684},
     {"sun", 0x9e54c6cd4147ac22, 0x6973181985d668a5},
-    {"shapes", 0xbe974c307329fb4f, 0x6bae46df3570df52},
+    {"shapes", 0xc9b1c550f33e0033, 0x6bae46df3570df52},
     {"rules", 0x6273541003762f78, 0xd3c6e30876d572e4},
-    {"rule2+", 0x81936dfec66a794b, 0x30775391f7383ca3},
+    {"rule2+", 0xc036a9ed51588182, 0x30775391f7383ca3},
     {"blocks", 0x5893e099251dbb4a, 0x36c68ca7622121c4},
-    {"planes", 0x3d41118a6a492842, 0x0705705b6ae7d01e},
-    {"textures", 0x32f677bba978abff, 0xe903ee013f3ff48c},
+    {"planes", 0xd968bcb115f4acf7, 0x0705705b6ae7d01e},
+    {"textures", 0xd59f1eab32955471, 0x9a330aa220930530},
     {"day", 0xdad13cb4bf5236a9, 0xc93fbed20444a7d0},
 };
 
