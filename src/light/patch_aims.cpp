@@ -21,8 +21,9 @@ std::uint64_t PatchAims::bytes(std::uint32_t lights) {
   return sizeof(List) * std::uint64_t{lights} + sizeof(std::uint32_t) * kListed;
 }
 
-void PatchAims::start(const LatticeBox& patch) {
+void PatchAims::start(const LatticeBox& patch, bool surely) {
   patch_ = patch;
+  surely_ = surely;
   used_ = 0;
   for (List& list : lists_) list = {0, kNotYet};
 }
@@ -36,6 +37,18 @@ void PatchAims::keep(List& list, const Aim& aim) {
   }
   list = {used_, static_cast<std::uint32_t>(aim.facets.size())};
   for (const std::uint32_t facet : aim.facets) facets_[used_++] = facet;
+}
+
+Shown PatchAims::shown(std::uint32_t l, const Link& link, const LatticeBox& whole) {
+  if (!surely_ || !intersector_->seeking()) return Shown::kUnknown;
+  List& list = lists_[l];
+  if (list.count == kNotYet) {
+    keep(list, intersector_->aim(patch_, whole, link));
+    for (std::uint32_t k = 0; list.count < kListed && k < list.count; ++k) {
+      if (intersector_->hides_all(facets_[list.first + k], patch_, whole, link)) list.count = kDark;
+    }
+  }
+  return list.count == 0 ? Shown::kAll : list.count == kDark ? Shown::kNothing : Shown::kUnknown;
 }
 
 Aim PatchAims::towards(std::uint32_t l, const Link& link, const LatticeBox& from, const LatticeBox& ends,

@@ -61,7 +61,7 @@ Status light_planes(const Scene& scene, const Geometry& geometry, const Options&
   if (!status.done()) return status;
   MirrorLight mirrors(sources);
   if (options.mirror_light && !mirrors.take(arena)) return arena.refused();
-  sources.start_patch({});
+  sources.start_patch({}, false);
   for (const Plane& plane : scene.planes) {
     const PlaneReceiver receiver(geometry, plane);
     for (std::uint32_t local = 0; local < plane.sub_patch_count(); ++local) {

@@ -142,7 +142,7 @@ void SubPatch::place_probes() {
 
 void SubPatch::add_point(std::uint32_t l) {
   const Light& light = sources_.light(l);
-  if (!sources_.may_shine_on(l, receiver_)) return;
+  if (!sources_.may_shine_on(l, receiver_) || sources_.shown(l, receiver_) == Shown::kNothing) return;
   const double step = sources_.geometry().lattice.step();
   const bool near = light.kind == LightKind::kPoint && near_point(light, receiver_, piece_, step);
   const double mean = near ? near_point_mean(sources_.scene(), light, piece_, step) : 0;
@@ -164,6 +164,14 @@ void SubPatch::add_point(std::uint32_t l) {
 void SubPatch::add_faces(std::uint32_t l) {
   const double shared = sources_.shared_factor(l, receiver_);
   if (shared == 0) return;
+  const Shown shown = sources_.shown(l, receiver_);
+  if (shown == Shown::kNothing) return;
+  if (shown == Shown::kAll && shared > 0) {
+    const Received all = sources_.all_of(l, shared);
+    const double one = 1;
+    add_uniform(l, &all, &one, 1);
+    return;
+  }
   if (gauss_.count == 0) {
     gauss_ = gauss_group(sources_.scene(), sources_.geometry(), receiver_, grid_);
     centre_ = centre_group(sources_.scene(), sources_.geometry(), receiver_, piece_);
@@ -186,7 +194,11 @@ void SubPatch::add_faces(std::uint32_t l) {
     arrives += weight[k] / total * received[k].lux * received[k].visible;
   }
   const bool unseen = !(mean.lux > 0);  // though a part of the sub-patch may be in front
-  const double visible = unseen ? 0 : arrives / mean.lux;
+  double visible = unseen ? 0 : arrives / mean.lux;
+  if (shared > 0) {
+    mean = sources_.all_of(l, shared);
+    visible = 0.25 * ((received[0].visible + received[1].visible) + (received[2].visible + received[3].visible));
+  }
   if (shared < 0 && look.reach != FaceReach::kFar) mean = near_mean(l);
   if (!(mean.lux > 0)) return;
   mean.visible = visible;
