@@ -95,7 +95,7 @@ class SubPatch {
   void add_to_fine(std::uint32_t l, std::uint32_t k, const Received& received, double correction);
   [[gnu::noinline]] void add_fine();
   bool bent(const Received* received) const;
-  bool faint(std::uint32_t l, const Received* received, bool near) const;
+  bool faint(std::uint32_t l, const Received* received) const;
   [[gnu::noinline]] bool all_hidden();
   std::uint32_t hidden_of(std::uint32_t samples) const;
   double colour(std::uint32_t l, std::uint32_t channel) const { return sources_.light(l).colour.c[channel]; }
@@ -153,7 +153,7 @@ void SubPatch::add_point(std::uint32_t l) {
     received[k] = sources_.receive(l, receiver_, probes_.sample[k], near);
   }
   if (!any_arrives(received, probes_.count)) return;
-  if ((disagree(received, probes_.count, near) || (!near && bent(received))) && !faint(l, received, near)) {
+  if (disagree(received, probes_.count, near) || (!near && bent(received) && !faint(l, received))) {
     sample_finely(l, received, near, mean);
     return;
   }
@@ -247,8 +247,8 @@ Received SubPatch::near_mean(std::uint32_t l) const {
   return mean;
 }
 
-bool SubPatch::faint(std::uint32_t l, const Received* received, bool near) const {
-  if (near || sources_.light(l).kind != LightKind::kPoint) return false;
+bool SubPatch::faint(std::uint32_t l, const Received* received) const {
+  if (sources_.light(l).kind != LightKind::kPoint) return false;
   double largest = 0;
   for (std::uint32_t k = 0; k < probes_.count; ++k) {
     if (received[k].lux > largest) largest = received[k].lux;
