@@ -12,7 +12,7 @@ constexpr std::uint32_t kMostProbes = 5;
 constexpr std::uint32_t kAllSamples = (std::uint32_t{1} << kGridSamples) - 1;
 
 /// Values of the visible part at most so far apart, and none of them nothing, agree.
-constexpr double kAgree = 0.25;
+constexpr double kAgree = 0.5;
 /// Illuminance is nearly linear if the mean of opposite corners is off the centre's by less than this part of the
 /// largest. The rule's own error is about the square of it.
 constexpr double kNearlyLinear = 1.0 / 16;
