@@ -22,7 +22,7 @@ constexpr std::uint32_t kProgressInterval = 64;
 constexpr double kThinSteps = 32;
 /// Of so many the factors of lights are interpolated over the patch (light/factor_field.h).
 constexpr std::uint32_t kManySubPatches = 3;
-/// Lattice steps by which samples may come to lie outside the patch's corners, mostly.
+/// Lattice steps, more than samples on a flat front come to lie outside the patch's corners.
 constexpr std::int32_t kRounding = 8;
 /// Corners of a cell this near to one plane, of its size, are on it but for rounding.
 constexpr double kPlane = 0x1p-40;
@@ -125,26 +125,31 @@ bool DirectStage::light_patch(std::uint32_t m, std::uint32_t local, const Progre
   return true;
 }
 
-/// A box for the samples of all sub-patches; nothing where there is one only.
+/// A box for the samples of all sub-patches: they lie between those of the corners but for rounding, and on a flat
+/// front in one plane with them.
 void DirectStage::start_patch(std::uint32_t m, std::uint32_t cell, std::uint32_t local) {
   front_ = flat_front(geometry_, m, cell);
   const Mesh& mesh = scene_.meshes[m];
+  const Piece piece = patch_piece(scene_, mesh, local);
   LatticeBox box;
-  sources_.start_patch(box);
-  if (mesh.su * mesh.sv > 1) {
-    const Piece piece = patch_piece(scene_, mesh, local);
-    for (std::uint32_t k = 0; k < piece.corners; ++k) {
-      box.include(sample_point(scene_, geometry_, m, cell, piece.corner[k]));
-    }
-    for (int k = 0; k < 3; ++k) {
-      if (box.low[k] >= box.high[k]) continue;
-      box.low[k] -= kRounding;
-      box.high[k] += kRounding;
-    }
-    sources_.start_patch(box);
-    if (mesh.su * mesh.sv >= kManySubPatches && PieceGrid(cell_piece(scene_, mesh, cell), 1).affine()) {
-      sources_.share_factors(receiver_of(scene_, m, cell, piece), piece);
-    }
+  for (std::uint32_t k = 0; k < piece.corners; ++k) {
+    box.include(sample_point(scene_, geometry_, m, cell, piece.corner[k]));
+  }
+  const std::int32_t margin = front_.flat() ? kRounding : 2 * kMostMoved;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    if (k == front_.axis) continue;
+    box.low[k] -= margin;
+    box.high[k] += margin;
+  }
+  if (front_.flat()) {  // no sample is nearer to the plane than one step
+    const std::int32_t nearest = front_.plane + front_.way;
+    std::int32_t &low = box.low[front_.axis], &high = box.high[front_.axis];
+    low = front_.way > 0 ? nearest : low - 2;
+    high = front_.way > 0 ? high + 2 : nearest;
+  }
+  sources_.start_patch(box, true);
+  if (mesh.su * mesh.sv >= kManySubPatches && PieceGrid(cell_piece(scene_, mesh, cell), 1).affine()) {
+    sources_.share_factors(receiver_of(scene_, m, cell, piece), piece);
   }
 }
 

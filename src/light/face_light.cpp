@@ -300,11 +300,12 @@ void FaceLight::share_out(const SubPatchView& view, const ReceiverGroup& group, 
   }
 }
 
-/// The faces of a batch. `last`: no more come; `first`: none came before.
+/// The faces of a batch; `only`: there is no other.
 void FaceLight::look_at_faces(const SubPatchView& view, const ReceiverGroup& group, const Link& link,
                               const LatticeBox& whole, bool only, Batch& batch, FaceLook& look) const {
   if (batch.count == 0) return;
   const Emitter& any = *batch.face[0].emitter;
+  if (only && aims_->hidden(any.light, link, group.box, batch.box)) return;
   batch.aim = aims_->towards(any.light, link, group.box, batch.box, whole);
   batch.others = batch.aim.facets.size();
   if (batch.others > 0) batch.others = intersector_->others_first(batch.aim, scene_->meshes[any.mesh].object);
@@ -320,8 +321,7 @@ void FaceLight::look_at_faces(const SubPatchView& view, const ReceiverGroup& gro
   if (batch.given >= 0 && !later) find_shares(view, group, batch);
   for (std::uint32_t e = 0; e < kFaceEnds; ++e) look_at_ends(view, group, link, batch, later, e, look);
   if (later) share_out(view, group, batch, look);
-  batch.count = 0;
-  batch.box = {};
+  aims_->used(any.light, batch.aim);
 }
 
 double FaceLight::factor_at(const Vec3& point, const Receiver& receiver, std::uint32_t first, std::uint32_t count,
@@ -402,6 +402,10 @@ void FaceLight::look_at_one(const SubPatchView& view, const ReceiverGroup& group
                             FaceLook& look) const {
   look.split = is_split(view, *face.emitter);
   const LatticeBox& aimed = look.split ? whole : ends;
+  if (!look.split && !face.below && aims_->hidden(face.emitter->light, link, group.box, ends)) {
+    for (std::uint32_t k = 0; k < group.count; ++k) look.tested[k] = face.factor[k];
+    return;
+  }
   const Aim aim = aims_->towards(face.emitter->light, link, group.box, aimed, whole,
                                  look.split || !grid->usable() ? nullptr : grid);
   face.panes = intersector_->panes().any() && intersector_->panes().between(group.box, aimed);
@@ -411,6 +415,7 @@ void FaceLight::look_at_one(const SubPatchView& view, const ReceiverGroup& group
   } else {
     look_at_area(view, group, link, face, aim, look);
   }
+  aims_->used(face.emitter->light, aim);
 }
 
 FaceLook FaceLight::look(const SubPatchView& view, const ReceiverGroup& group, const Link& link, std::uint32_t first,
@@ -432,6 +437,8 @@ FaceLook FaceLight::look(const SubPatchView& view, const ReceiverGroup& group, c
     if (++batch.count < kFacesAtOnce) continue;
     only = false;
     look_at_faces(view, group, link, whole, only, batch, look);
+    batch.count = 0;
+    batch.box = {};
   }
   look_at_faces(view, group, link, whole, only, batch, look);
   for (std::uint32_t k = 0; k < group.count && given >= 0; ++k) look.factor[k] = given;

@@ -1,5 +1,7 @@
 #include "light/patch_aims.h"
 
+#include <utility>
+
 namespace shodo {
 
 namespace {
@@ -14,17 +16,22 @@ bool within(const LatticeBox& part, const LatticeBox& box) {
 }  // namespace
 
 bool PatchAims::take(Arena& arena, std::uint32_t lights) {
-  return arena.take("blockers by light", lights, lists_) && arena.take("blockers of a patch", kListed, facets_);
+  if (!arena.take("blockers by light", lights, lists_) || !arena.take("blockers of a patch", kListed, facets_)) {
+    return false;
+  }
+  for (List& list : lists_) list = {};
+  return true;
 }
 
 std::uint64_t PatchAims::bytes(std::uint32_t lights) {
-  return sizeof(List) * std::uint64_t{lights} + sizeof(std::uint32_t) * kListed;
+  return (sizeof(List) * std::uint64_t{lights} + 7) / 8 * 8 + sizeof(std::uint32_t) * kListed;
 }
 
-void PatchAims::start(const LatticeBox& patch) {
+void PatchAims::start(const LatticeBox& patch, bool surely) {
   patch_ = patch;
+  surely_ = surely;
   used_ = 0;
-  for (List& list : lists_) list = {0, kNotYet};
+  for (List& list : lists_) list.count = kNotYet;
 }
 
 bool PatchAims::usable(const LatticeBox& from) const { return within(from, patch_) && intersector_->seeking(); }
@@ -34,8 +41,40 @@ void PatchAims::keep(List& list, const Aim& aim) {
     list.count = kTooLong;
     return;
   }
-  list = {used_, static_cast<std::uint32_t>(aim.facets.size())};
+  list.first = used_;
+  list.count = static_cast<std::uint32_t>(aim.facets.size());
   for (const std::uint32_t facet : aim.facets) facets_[used_++] = facet;
+  prefer(list);
+}
+
+bool PatchAims::hidden(std::uint32_t l, const Link& link, const LatticeBox& from, const LatticeBox& ends) const {
+  const List& list = lists_[l];
+  return list.blocker != kNone && intersector_->seeking() && intersector_->tested(link) && intersector_->hides_all(list.blocker, from, ends, link);
+}
+
+void PatchAims::used(std::uint32_t l, const Aim& aim) {
+  if (aim.facets.empty()) return;
+  lists_[l].blocker = aim.facets[0];
+  prefer(lists_[l]);
+}
+
+void PatchAims::prefer(List& list) {
+  if (list.count >= kDark || list.blocker == kNone) return;
+  for (std::uint32_t& facet : facets_.subspan(list.first, list.count)) {
+    if (facet == list.blocker) std::swap(facet, facets_[list.first]);
+  }
+}
+
+Shown PatchAims::shown(std::uint32_t l, const Link& link, const LatticeBox& whole) {
+  if (!surely_ || !intersector_->seeking()) return Shown::kUnknown;
+  List& list = lists_[l];
+  if (list.count == kNotYet) {
+    keep(list, intersector_->aim(patch_, whole, link));
+    for (std::uint32_t k = 0; list.count <= kListed && k < list.count; ++k) {
+      if (intersector_->hides_all(facets_[list.first + k], patch_, whole, link)) list.count = kDark;
+    }
+  }
+  return list.count == 0 ? Shown::kAll : list.count == kDark ? Shown::kNothing : Shown::kUnknown;
 }
 
 Aim PatchAims::towards(std::uint32_t l, const Link& link, const LatticeBox& from, const LatticeBox& ends,

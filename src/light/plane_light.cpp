@@ -64,7 +64,7 @@ Status light_planes(const Scene& scene, const Geometry& geometry, const Options&
   if (!status.done()) return status;
   MirrorLight mirrors(sources);
   if (options.mirror_light && !mirrors.take(arena)) return arena.refused();
-  sources.start_patch({});
+  sources.start_patch({}, false);
   statistics.segments_planes -= intersector.segments(LightSet::kDirect);
   statistics.tests_planes -= intersector.tests(LightSet::kDirect);
   for (const Plane& plane : scene.planes) {

@@ -118,6 +118,13 @@ double Sources::shared_factor(std::uint32_t l, const Receiver& receiver) {
   return source.field.state == FactorField::State::kUsable ? source.field.mean(receiver.place) : -1;
 }
 
+Shown Sources::shown(std::uint32_t l, const Receiver& receiver) {
+  if (light(l).kind == LightKind::kSun) return Shown::kUnknown;
+  const LatticeBox& ends = light(l).kind == LightKind::kPoint ? sources_[l].ends : sources_[l].whole;
+  const Shown shown = aims_.shown(l, link(l, receiver), ends);
+  return shown == Shown::kAll && intersector_->panes().any() ? Shown::kUnknown : shown;
+}
+
 Sources::EmitterCount Sources::count_emitters(const Scene& scene) {
   EmitterCount total;
   for (const Light& light : scene.lights) {
@@ -263,6 +270,14 @@ Received Sources::received(std::uint32_t l, const ReceiverGroup& group, const Fa
   }
   received.visible = look.visible(k);
   if (light(l).kind == LightKind::kArea) received.factor = look.factor[k];
+  return received;
+}
+
+Received Sources::all_of(std::uint32_t l, double shared_factor) const {
+  Received received;
+  received.lux = kPi * light(l).strength * shared_factor;
+  received.visible = 1;
+  if (light(l).kind == LightKind::kArea) received.factor = shared_factor;
   return received;
 }
 

@@ -32,9 +32,10 @@ class Sources {
   std::uint32_t count() const { return static_cast<std::uint32_t>(scene_->lights.size()); }
   const Light& light(std::uint32_t l) const { return scene_->lights[l]; }
 
-  /// The patch that the receivers which come next belong to: around their samples, mostly (light/patch_aims.h).
-  void start_patch(const LatticeBox& patch) {
-    aims_.start(patch);
+  /// The patch that the receivers which come next belong to: around their samples, surely or mostly
+  /// (light/patch_aims.h).
+  void start_patch(const LatticeBox& patch, bool surely) {
+    aims_.start(patch, surely);
     shared_ = false;
   }
   /// They lie on this parallelogram, in its plane: light may be found for all of them together.
@@ -49,6 +50,9 @@ class Sources {
   /// The samples that come next lie in or near this box (whatever it is, answers are the same): those of a sub-patch.
   void expect(const LatticeBox& samples);
 
+  /// What light l shows to all of the patch.
+  Shown shown(std::uint32_t l, const Receiver& receiver);
+
   /// False if point light or sun l is behind the receiver's plane.
   bool may_shine_on(std::uint32_t l, const Receiver& receiver) const;
   /// Of a point light or a sun. `trace_dark`: look for blockers even where the light sends nothing, so that `visible`
@@ -60,6 +64,9 @@ class Sources {
   FaceLook factors(std::uint32_t l, const SubPatchView& view, const ReceiverGroup& group, FaceReach reach);
   /// What sample k of the group gets, given look().
   Received received(std::uint32_t l, const ReceiverGroup& group, const FaceLook& look, std::uint32_t k) const;
+
+  /// The same where nothing is in the way, of the light's shared_factor().
+  Received all_of(std::uint32_t l, double shared_factor) const;
 
   const Scene& scene() const { return *scene_; }
   const Geometry& geometry() const { return *geometry_; }

@@ -12,7 +12,7 @@ constexpr std::uint32_t kMostProbes = 5;
 constexpr std::uint32_t kAllSamples = (std::uint32_t{1} << kGridSamples) - 1;
 
 /// Values of the visible part at most so far apart, and none of them nothing, agree.
-constexpr double kAgree = 0.25;
+constexpr double kAgree = 0.5;
 /// Illuminance is nearly linear if the mean of opposite corners is off the centre's by less than this part of the
 /// largest. The rule's own error is about the square of it.
 constexpr double kNearlyLinear = 1.0 / 16;
@@ -95,7 +95,7 @@ class SubPatch {
   void add_to_fine(std::uint32_t l, std::uint32_t k, const Received& received, double correction);
   [[gnu::noinline]] void add_fine();
   bool bent(const Received* received) const;
-  bool faint(std::uint32_t l, const Received* received, bool near) const;
+  bool faint(std::uint32_t l, const Received* received) const;
   [[gnu::noinline]] bool all_hidden();
   std::uint32_t hidden_of(std::uint32_t samples) const;
   double colour(std::uint32_t l, std::uint32_t channel) const { return sources_.light(l).colour.c[channel]; }
@@ -142,7 +142,7 @@ void SubPatch::place_probes() {
 
 void SubPatch::add_point(std::uint32_t l) {
   const Light& light = sources_.light(l);
-  if (!sources_.may_shine_on(l, receiver_)) return;
+  if (!sources_.may_shine_on(l, receiver_) || sources_.shown(l, receiver_) == Shown::kNothing) return;
   const double step = sources_.geometry().lattice.step();
   const bool near = light.kind == LightKind::kPoint && near_point(light, receiver_, piece_, step);
   const double mean = near ? near_point_mean(sources_.scene(), light, piece_, step) : 0;
@@ -153,7 +153,7 @@ void SubPatch::add_point(std::uint32_t l) {
     received[k] = sources_.receive(l, receiver_, probes_.sample[k], near);
   }
   if (!any_arrives(received, probes_.count)) return;
-  if ((disagree(received, probes_.count, near) || (!near && bent(received))) && !faint(l, received, near)) {
+  if (disagree(received, probes_.count, near) || (!near && bent(received) && !faint(l, received))) {
     sample_finely(l, received, near, mean);
     return;
   }
@@ -164,6 +164,14 @@ void SubPatch::add_point(std::uint32_t l) {
 void SubPatch::add_faces(std::uint32_t l) {
   const double shared = sources_.shared_factor(l, receiver_);
   if (shared == 0) return;
+  const Shown shown = sources_.shown(l, receiver_);
+  if (shown == Shown::kNothing) return;
+  if (shown == Shown::kAll && shared > 0) {
+    const Received all = sources_.all_of(l, shared);
+    const double one = 1;
+    add_uniform(l, &all, &one, 1);
+    return;
+  }
   if (gauss_.count == 0) {
     gauss_ = gauss_group(sources_.scene(), sources_.geometry(), receiver_, grid_);
     centre_ = centre_group(sources_.scene(), sources_.geometry(), receiver_, piece_);
@@ -186,7 +194,11 @@ void SubPatch::add_faces(std::uint32_t l) {
     arrives += weight[k] / total * received[k].lux * received[k].visible;
   }
   const bool unseen = !(mean.lux > 0);  // though a part of the sub-patch may be in front
-  const double visible = unseen ? 0 : arrives / mean.lux;
+  double visible = unseen ? 0 : arrives / mean.lux;
+  if (shared > 0) {
+    mean = sources_.all_of(l, shared);
+    visible = 0.25 * ((received[0].visible + received[1].visible) + (received[2].visible + received[3].visible));
+  }
   if (shared < 0 && look.reach != FaceReach::kFar) mean = near_mean(l);
   if (!(mean.lux > 0)) return;
   mean.visible = visible;
@@ -235,8 +247,8 @@ Received SubPatch::near_mean(std::uint32_t l) const {
   return mean;
 }
 
-bool SubPatch::faint(std::uint32_t l, const Received* received, bool near) const {
-  if (near || sources_.light(l).kind != LightKind::kPoint) return false;
+bool SubPatch::faint(std::uint32_t l, const Received* received) const {
+  if (sources_.light(l).kind != LightKind::kPoint) return false;
   double largest = 0;
   for (std::uint32_t k = 0; k < probes_.count; ++k) {
     if (received[k].lux > largest) largest = received[k].lux;

@@ -150,6 +150,41 @@ void Blockers::split(const Range& range) {
   });
 }
 
+namespace {
+
+struct Range {
+  std::int32_t least, most;
+};
+
+/// Whether x db + y da >= 0 for all distances da and db, above 0.
+bool never_below(std::int32_t x, std::int32_t y, const Range& da, const Range& db) {
+  return product(x, x < 0 ? db.most : db.least) + product(y, y < 0 ? da.most : da.least) >= 0;
+}
+
+}  // namespace
+
+/// A segment from P, da before the plane, to Q, db behind it, passes it at (P db + Q da) / (da + db).
+bool hides_all(const LatticeBox& rectangle, const LatticeBox& a, const LatticeBox& b) {
+  const int axis = rectangle.low[0] > rectangle.high[0] ? 0 : rectangle.low[1] > rectangle.high[1] ? 1 : 2;
+  const std::int32_t plane = rectangle.low[axis] - 1;
+  const bool up = b.low[axis] > plane;
+  if (up ? a.high[axis] >= plane : a.low[axis] <= plane || b.high[axis] >= plane) return false;
+  const auto distance = [&](const LatticeBox& box) {
+    const bool above = box.low[axis] > plane;
+    return above ? Range{box.low[axis] - plane, box.high[axis] - plane}
+                 : Range{plane - box.high[axis], plane - box.low[axis]};
+  };
+  const Range da = distance(a), db = distance(b);
+  for (int u = 0; u < 3; ++u) {
+    if (u == axis) continue;
+    if (!never_below(a.low[u] - rectangle.low[u], b.low[u] - rectangle.low[u], da, db) ||
+        !never_below(rectangle.high[u] - a.high[u], rectangle.high[u] - b.high[u], da, db)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 bool misses_side(std::span<const Triangle> triangles, std::span<const LatticePoint> a,
                  std::span<const LatticePoint> b) {
   for (const Triangle& triangle : triangles) {

@@ -91,6 +91,9 @@ class Blockers {
   std::span<LatticeBox> nodes_;
 };
 
+/// Whether a facet that fills its box, square to an axis, blocks every segment between the boxes; exact.
+bool hides_all(const LatticeBox& rectangle, const LatticeBox& a, const LatticeBox& b);
+
 /// True if no segment between the points of a and those of b passes the plane of any triangle of the facet.
 bool misses_side(std::span<const Triangle> triangles, std::span<const LatticePoint> a, std::span<const LatticePoint> b);
 

@@ -195,6 +195,13 @@ Aim Intersector::aim_along_among(std::span<const std::uint32_t> facets, const La
   return keep_wide(facets, Shaft::along(a, direction));
 }
 
+bool Intersector::hides_all(std::uint32_t k, const LatticeBox& a, const LatticeBox& b, const Link& link) {
+  const Facet& facet = blockers_.facets()[k];
+  if (facet.rectangle == 0 || !shodo::hides_all(facet.box, a, b)) return false;
+  flags_.note_blocked(link, geometry_->triangles[facet.first].object);
+  return true;
+}
+
 Aim Intersector::gather_along(const LatticeBox& a, const LatticeVector& direction) {
   if (!seeking()) return {};
   std::uint32_t count = 0;

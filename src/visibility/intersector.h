@@ -83,6 +83,8 @@ class Intersector {
   Aim sift(const Aim& wide, const LatticeBox& from, const EndGrid& grid);
   /// Sorts the facets of an aim: those of other objects first; returns their number.
   std::size_t others_first(const Aim& aim, std::uint32_t object) const;
+  /// Whether this facet blocks, by itself and surely, every segment between two boxes; if so, that is noted.
+  bool hides_all(std::uint32_t facet, const LatticeBox& a, const LatticeBox& b, const Link& link);
   /// Everything that rays from the box along `direction` may meet, whatever the flags; wide.
   Aim gather_along(const LatticeBox& a, const LatticeVector& direction);
   /// The same for the first part of the rays only, where a hit is `near`.

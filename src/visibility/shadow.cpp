@@ -1,6 +1,7 @@
 #include "visibility/shadow.h"
 
 #include "base/bits.h"
+#include "visibility/rounded_normal.h"
 #include "visibility/triangle_test.h"
 
 namespace shodo {
@@ -28,21 +29,61 @@ LatticePoint way(const LatticePoint& p, const LatticePoint& q) { return {q.x - p
 
 std::int64_t along(const LatticeVector& m, const LatticePoint& d) { return m.x * d.x + m.y * d.y + m.z * d.z; }
 
-void add(std::int64_t m, std::int32_t low, std::int32_t high, Extent& extent) {
+void add(std::int32_t m, std::int32_t low, std::int32_t high, Extent& extent) {
   if (m == 0) return;
-  const std::int64_t a = m * low, b = low == high ? a : m * high;
+  const std::int64_t a = product(m, low), b = low == high ? a : product(m, high);
   extent.least += m > 0 ? a : b;
   extent.most += m > 0 ? b : a;
 }
 
 /// Of m . d.
-Extent extent_of(const LatticeVector& m, const Ways& ways) {
+Extent extent_of(const RoundedNormal& m, const Ways& ways) {
   Extent extent{0, 0};
   add(m.x, ways.low[0], ways.high[0], extent);
   add(m.y, ways.low[1], ways.high[1], extent);
   add(m.z, ways.low[2], ways.high[2], extent);
   return extent;
 }
+
+/// m . d >= limit, for which rounded numbers do but near it.
+struct Condition {
+  RoundedNormal rough;
+  std::int64_t never, sure;
+  LatticeVector m;
+  std::int64_t limit;
+
+  bool holds(const LatticePoint& d) const {
+    const std::int64_t value = rough.along(d);
+    return value >= sure || (value >= never && along(m, d) >= limit);
+  }
+};
+
+/// Of all ends at once: conditions that hold for some of them, or nobody knows yet.
+struct Conditions {
+  Condition open[4];
+  std::uint32_t count = 0;
+
+  /// False if it surely holds for none.
+  bool add(const LatticeVector& m, std::int64_t limit, const Ways& ways) {
+    const RoundedNormal rough(m);
+    const Extent extent = extent_of(rough, ways);
+    const std::int64_t low = limit >> RoundedNormal::kBits;
+    if (extent.most < low - RoundedNormal::kDoubt) return false;
+    if (extent.least > low + RoundedNormal::kDoubt) return true;
+    Condition& condition = open[count++];
+    condition.rough = rough;
+    condition.never = low - RoundedNormal::kDoubt;
+    condition.sure = low + RoundedNormal::kDoubt + 1;
+    condition.m = m;
+    condition.limit = limit;
+    return true;
+  }
+  bool hold(const LatticePoint& d) const {
+    std::uint32_t e = 0;
+    while (e < count && open[e].holds(d)) ++e;
+    return e == count;
+  }
+};
 
 /// a x b, both within the cube's size.
 LatticeVector small_cross(const LatticePoint& a, const LatticePoint& b) {
@@ -74,37 +115,18 @@ std::uint32_t shadow_of(const Triangle& triangle, const Segments& segments, std:
   // Everything with the sign that makes N.d positive where the plane is passed.
   const std::int64_t sign = here > 0 ? -1 : 1;
   const LatticeVector n{sign * triangle.n.x, sign * triangle.n.y, sign * triangle.n.z};
-  const std::int64_t far = sign * here;  // below 0
-  const Extent plane = extent_of(n, ways);
-  if (plane.most <= -far) return 0;
+  Conditions conditions;
+  if (!conditions.add(n, 1 - sign * here, ways)) return 0;
   const LatticePoint a = way(p, triangle.a), b = way(p, triangle.b), c = way(p, triangle.c);
-  LatticeVector edge[4];
-  std::int64_t limit[4];
-  std::uint32_t open = 0;
-  const auto outside = [&](const LatticeVector& m) {
-    const Extent extent = extent_of(m, ways);
-    if (extent.most < 0) return true;
-    if (extent.least >= 0) return false;
-    limit[open] = 0;
-    edge[open++] = m;
-    return false;
-  };
   const LatticeVector ab = sign > 0 ? small_cross(a, b) : small_cross(b, a);
-  if (outside(ab)) return 0;
+  if (!conditions.add(ab, 0, ways)) return 0;
   const LatticeVector bc = sign > 0 ? small_cross(b, c) : small_cross(c, b);
-  if (outside(bc)) return 0;
-  if (outside({n.x - ab.x - bc.x, n.y - ab.y - bc.y, n.z - ab.z - bc.z})) return 0;
-  if (plane.least <= -far) {
-    limit[open] = 1 - far;
-    edge[open++] = n;
-  }
-  if (open == 0) return wanted;
+  if (!conditions.add(bc, 0, ways)) return 0;
+  if (!conditions.add({n.x - ab.x - bc.x, n.y - ab.y - bc.y, n.z - ab.z - bc.z}, 0, ways)) return 0;
+  if (conditions.count == 0) return wanted;
   std::uint32_t shadow = 0;
   for_each_bit(wanted, [&](std::uint32_t k, std::uint32_t bit) {
-    const LatticePoint d = way(p, segments.ends[k]);
-    std::uint32_t e = 0;
-    while (e < open && along(edge[e], d) >= limit[e]) ++e;
-    if (e == open) shadow |= bit;
+    if (conditions.hold(way(p, segments.ends[k]))) shadow |= bit;
   });
   return shadow;
 }

@@ -5,6 +5,8 @@
 // Exact: all of it. |s| <= 2^61 and |t| <= 2^61.6; partial sums stay below 2^62.6, so that nothing overflows.
 #include "visibility/triangle_test.h"
 
+#include "visibility/rounded_normal.h"
+
 namespace shodo {
 
 namespace {
@@ -24,6 +26,19 @@ bool line_meets(const Triangle& triangle, const LatticePoint& p, const LatticeVe
   const std::int32_t bx = b.x - p.x, by = b.y - p.y, bz = b.z - p.z;
   const LatticeVector m{product(dy, bz) - product(dz, by), product(dz, bx) - product(dx, bz),
                         product(dx, by) - product(dy, bx)};
+  // All with the sign that makes `through` positive; the doubts of the first two add up in the third.
+  const RoundedNormal rough(m);
+  const LatticePoint &a = triangle.a, &c = triangle.c;
+  const std::int64_t to_a = rough.along({a.x - p.x, a.y - p.y, a.z - p.z});
+  const std::int64_t rough_ab = through > 0 ? -to_a : to_a;
+  if (rough_ab < -RoundedNormal::kDoubt) return false;
+  const std::int64_t to_c = rough.along({c.x - p.x, c.y - p.y, c.z - p.z});
+  const std::int64_t rough_bc = through > 0 ? to_c : -to_c;
+  if (rough_bc < -RoundedNormal::kDoubt) return false;
+  const std::int64_t rough_ca = ((through > 0 ? through : -through) >> RoundedNormal::kBits) - rough_ab - rough_bc;
+  constexpr std::int64_t kBoth = 2 * RoundedNormal::kDoubt + 1;
+  if (rough_ca < -kBoth) return false;
+  if (rough_ab > RoundedNormal::kDoubt && rough_bc > RoundedNormal::kDoubt && rough_ca > kBoth) return true;
   const std::int64_t ab = -along(m, triangle.a, p);
   if (through > 0 ? ab < 0 : ab > 0) return false;
   const std::int64_t bc = along(m, triangle.c, p);
