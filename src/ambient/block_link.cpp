@@ -12,6 +12,7 @@ using Step = LinkWalk::Step;
 constexpr double kOfTwo = 0.4, kOfFour = 0.2, kOfEight = 0.1, kOfSixteen = 0.05;  // of a fraction, where so many segments agree
 constexpr double kOfMixed = 0.7;        // of a link as a whole, where some are blocked
 constexpr double kOfDisc = 0.25;        // of the disc's form factor between patches
+constexpr double kOfQuarters = 2;       // of a single disc instead of one for each pair of quarters
 constexpr double kOfDiscBlocks = 0.3;   // the same between blocks
 constexpr double kSeriesShare = 0.5;    // the part of REL that a series may use
 constexpr double kMostNearError = 0.1;
@@ -89,7 +90,7 @@ Step BlockJudge::judge(const RowSide& side, std::uint32_t j) {
   if (side.position != node_) start(side);
   while (j >= surfaces_.mesh_begin[place_ + 1]) ++place_;
   link_.to = surfaces_.scene->meshes[surfaces_.mesh_at[place_]].object;
-  tools_.sight.turn_to(link_, intersector_);
+  tools_.sight.turn_to(link_, place_, intersector_);
   return decide(side, j);
 }
 
@@ -158,7 +159,7 @@ Step BlockJudge::decide(const RowSide& side, std::uint32_t j) {
 bool BlockJudge::measure(const RowSide& side, const Pair& pair) {
   LinkSeries series = pair.series;
   const double roots = surfaces_.root_area[node_] * surfaces_.root_area[pair.j];
-  if (series.kind != LinkKind::kSeries && !pair.near && placed_.kind != PlaceKind::kOdd) {
+  if (series.kind != LinkKind::kSeries && !pair.near && !within(pair.whole, kOfQuarters) && placed_.kind != PlaceKind::kOdd) {
     const PlacedSide other = tools_.places.side(pair.j, place_);
     if (other.kind != PlaceKind::kOdd) series.value = rough_exchange(placed_, other);
   }
