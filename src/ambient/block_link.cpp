@@ -88,9 +88,11 @@ void BlockJudge::start(const RowSide& side) {
 
 Step BlockJudge::judge(const RowSide& side, std::uint32_t j) {
   if (side.position != node_) start(side);
-  while (j >= surfaces_.mesh_begin[place_ + 1]) ++place_;
-  link_.to = surfaces_.scene->meshes[surfaces_.mesh_at[place_]].object;
-  tools_.sight.turn_to(link_, place_, intersector_);
+  if (link_.to == kNone || j >= surfaces_.mesh_begin[place_ + 1]) {
+    while (j >= surfaces_.mesh_begin[place_ + 1]) ++place_;
+    link_.to = surfaces_.scene->meshes[surfaces_.mesh_at[place_]].object;
+    tools_.sight.turn_to(link_, place_, intersector_);
+  }
   return decide(side, j);
 }
 
