@@ -9,9 +9,9 @@ namespace {
 using Step = LinkWalk::Step;
 
 // Relative errors, chosen on the paper's rooms: errors and costs of others differ by less than a fifth.
-constexpr double kOfTwo = 0.4, kOfFour = 0.2, kOfEight = 0.1, kOfSixteen = 0.05;  // of a fraction, where so many segments agree
+constexpr double kOfTwo = 0.4, kOfFour = 0.14, kOfEight = 0.07, kOfSixteen = 0.05;  // of a fraction, where so many segments agree
 constexpr double kOfMixed = 0.7;        // of a link as a whole, where some are blocked
-constexpr double kOfDisc = 0.25;        // of the disc's form factor between patches
+constexpr double kOfDisc = 0.3;        // of the disc's form factor between patches
 constexpr double kOfQuarters = 2;       // of a single disc instead of one for each pair of quarters
 constexpr double kOfDiscBlocks = 0.3;   // the same between blocks
 constexpr double kSeriesShare = 0.5;    // the part of REL that a series may use

@@ -291,7 +291,8 @@ int Places::sign_over(std::uint32_t node, std::uint32_t place, const LatticePoin
   constexpr std::int32_t kTellable = 8 * kOne;
   const std::int32_t* centre = nodes_[node].centre;
   const std::int32_t way[3] = {(point.x - centre[0]) >> 5, (point.y - centre[1]) >> 5, (point.z - centre[2]) >> 5};
-  const std::int16_t* normal = meshes_[place].normal;
+  const MeshPlace& own = place_of(node, place);
+  const std::int16_t* normal = own.kind == PlaceKind::kOwn ? own.normal : meshes_[place].normal;
   const std::int32_t height = normal[0] * way[0] + normal[1] * way[1] + normal[2] * way[2];
   return height > kTellable ? 1 : height < -kTellable ? -1 : 0;
 }
