@@ -9,9 +9,10 @@ namespace {
 using Step = LinkWalk::Step;
 
 // Relative errors, chosen on the paper's rooms: errors and costs of others differ by less than a fifth.
-constexpr double kOfTwo = 0.4, kOfFour = 0.2, kOfEight = 0.1, kOfSixteen = 0.05;  // of a fraction, where so many segments agree
+constexpr double kOfTwo = 0.4, kOfFour = 0.14, kOfEight = 0.07, kOfSixteen = 0.05;  // of a fraction, where so many segments agree
 constexpr double kOfMixed = 0.7;        // of a link as a whole, where some are blocked
-constexpr double kOfDisc = 0.25;        // of the disc's form factor between patches
+constexpr double kOfDisc = 0.3;        // of the disc's form factor between patches
+constexpr double kOfQuarters = 2;       // of a single disc instead of one for each pair of quarters
 constexpr double kOfDiscBlocks = 0.3;   // the same between blocks
 constexpr double kSeriesShare = 0.5;    // the part of REL that a series may use
 constexpr double kMostNearError = 0.1;
@@ -87,9 +88,11 @@ void BlockJudge::start(const RowSide& side) {
 
 Step BlockJudge::judge(const RowSide& side, std::uint32_t j) {
   if (side.position != node_) start(side);
-  while (j >= surfaces_.mesh_begin[place_ + 1]) ++place_;
-  link_.to = surfaces_.scene->meshes[surfaces_.mesh_at[place_]].object;
-  tools_.sight.turn_to(link_, intersector_);
+  if (link_.to == kNone || j >= surfaces_.mesh_begin[place_ + 1]) {
+    while (j >= surfaces_.mesh_begin[place_ + 1]) ++place_;
+    link_.to = surfaces_.scene->meshes[surfaces_.mesh_at[place_]].object;
+    tools_.sight.turn_to(link_, place_, intersector_);
+  }
   return decide(side, j);
 }
 
@@ -158,7 +161,7 @@ Step BlockJudge::decide(const RowSide& side, std::uint32_t j) {
 bool BlockJudge::measure(const RowSide& side, const Pair& pair) {
   LinkSeries series = pair.series;
   const double roots = surfaces_.root_area[node_] * surfaces_.root_area[pair.j];
-  if (series.kind != LinkKind::kSeries && !pair.near && placed_.kind != PlaceKind::kOdd) {
+  if (series.kind != LinkKind::kSeries && !pair.near && !within(pair.whole, kOfQuarters) && placed_.kind != PlaceKind::kOdd) {
     const PlacedSide other = tools_.places.side(pair.j, place_);
     if (other.kind != PlaceKind::kOdd) series.value = rough_exchange(placed_, other);
   }
@@ -228,17 +231,15 @@ void BlockJudge::look_once(std::uint32_t k, std::uint32_t j, std::uint32_t l) {
   found_.visible = fraction_of(blocked ? 0 : 1, 1);
 }
 
-/// By two segments between opposite samples, or the order to split.
-Step BlockJudge::look_twice(const Pair& pair, std::uint32_t turn) {
-  const std::uint32_t last = surfaces_.cached_points - 1;
-  std::uint32_t free = 0, all = 0;
-  for (std::uint32_t k = 0; k <= last; k += 3) {
-    const LatticePoint &p = surfaces_.samples(node_)[k], &q = surfaces_.samples(pair.j)[k ^ turn];
+/// By two segments, or the order to split.
+Step BlockJudge::look_twice(const Pair& pair, const Ends& first, const Ends& second) {
+  std::uint32_t free = 0;
+  for (const Ends* ends : {&first, &second}) {
+    const LatticePoint &p = surfaces_.samples(node_)[ends->i], &q = surfaces_.samples(pair.j)[ends->j];
     free += tools_.sight.blocked_alone(p, q, link_, intersector_) ? 0 : 1;
-    ++all;
   }
-  if (free > 0 && free < all && mixed_splits(pair)) return pair.split;
-  found_.visible = fraction_of(free, all);
+  if (free == 1 && mixed_splits(pair)) return pair.split;
+  found_.visible = fraction_of(free, 2);
   return Step::kLink;
 }
 
@@ -280,28 +281,37 @@ Step BlockJudge::look(const Pair& pair) {
     look_once(turn, j, hash >> 2 & last);
     return Step::kLink;
   }
-  if (within(pair.whole, kOfTwo) && !crossing) return look_twice(pair, turn);
+  const bool by_two = points > 1 && within(pair.whole, kOfTwo);
+  if (by_two && !crossing) return look_twice(pair, {0, turn}, {last, last ^ turn});
   Shots shots = shots_of(pair);
   std::uint32_t first = 0;
-  while (first < points * points && !shots.faces(first & last, (first ^ first / points ^ turn) & last)) ++first;
+  const auto ends = [&](std::uint32_t segment) { return Ends{segment & last, (segment ^ segment / points ^ turn) & last}; };
+  while (first < points * points && !shots.faces(ends(first).i, ends(first).j)) ++first;
   if (first == points * points) {
     if (!sight.clear(own_box(false), box_of(j, false))) found_.visible = {0, 0};
     return Step::kLink;
   }
-  const std::uint32_t from = first & last, to = (first ^ first / points ^ turn) & last;
+  const Ends from = ends(first);
   if (pair.slight) {
-    look_once(from, j, to);
+    look_once(from.i, j, from.j);
     return Step::kLink;
   }
-  if (sight.list_unless_blocked(shots.at_i[from], shots.at_j[to], own_box(false), box_of(j, false))) return Step::kLink;
+  if (by_two) {
+    std::uint32_t end = points * points - 1;
+    while (!shots.faces(ends(end).i, ends(end).j)) --end;
+    return look_twice(pair, from, ends(end));
+  }
+  if (sight.list_unless_blocked(shots.at_i[from.i], shots.at_j[from.j], own_box(false), box_of(j, false))) {
+    return Step::kLink;
+  }
   return shoot_all(pair, turn, shots) ? Step::kLink : pair.split;
 }
 
 /// All rounds that the pair is worth; false if it is to be split.
 bool BlockJudge::shoot_all(const Pair& pair, std::uint32_t turn, Shots& shots) {
   const std::uint32_t points = surfaces_.cached_points, last = points - 1;
-  const bool crossing = found_.pair.crossing, splits = mixed_splits(pair);
-  const bool by_four = within(pair.whole, kOfFour) && !crossing, by_eight = within(pair.whole, kOfEight) && !crossing;
+  const bool splits = mixed_splits(pair);
+  const bool by_four = within(pair.whole, kOfFour), by_eight = within(pair.whole, kOfEight);
   const std::uint32_t rounds = by_four ? 1 : by_eight ? 2 : points;
   for (std::uint32_t m = 0; m < rounds; ++m) {
     for (std::uint32_t k = 0; k < points; ++k) {

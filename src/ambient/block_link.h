@@ -71,6 +71,10 @@ class BlockJudge {
     bool near = false;     // the near tier is needed
     LinkWalk::Step split = LinkWalk::Step::kSplitFirst;
   };
+  /// A segment, by the numbers of its cached samples.
+  struct Ends {
+    std::uint32_t i, j;
+  };
   /// Ends of segments between cached samples, and what they met.
   struct Shots;
 
@@ -84,7 +88,7 @@ class BlockJudge {
   bool varies_too_much(Pair& pair) const;
   bool measure(const RowSide& side, const Pair& pair);
   LinkWalk::Step look(const Pair& pair);
-  LinkWalk::Step look_twice(const Pair& pair, std::uint32_t turn);
+  LinkWalk::Step look_twice(const Pair& pair, const Ends& first, const Ends& second);
   void look_once(std::uint32_t k, std::uint32_t j, std::uint32_t l);
   LinkWalk::Step look_through_panes(const Pair& pair, std::uint32_t hash);
   bool in_front(std::uint32_t node, std::uint32_t sample, std::uint32_t other, std::uint32_t place) const;

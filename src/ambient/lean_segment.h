@@ -33,7 +33,10 @@ class LeanSegment {
   static constexpr int kPlaces = 15;
   static constexpr std::int32_t kRounding = 6;
 
-  static bool within(std::int32_t x, std::int32_t most) { return x <= most && -x <= most; }
+  /// |x| <= most; `most` is not negative.
+  static bool within(std::int32_t x, std::int32_t most) {
+    return static_cast<std::uint32_t>(x + most) <= 2 * static_cast<std::uint32_t>(most);
+  }
   bool beside(const LeanBox& box, std::uint32_t axis, std::int32_t slope, std::int32_t steep, std::int32_t ahead,
               std::int32_t half) const {
     const std::int32_t off = box.middle[axis] - middle_[axis] - (slope * ahead >> kPlaces);

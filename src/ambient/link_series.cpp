@@ -34,13 +34,14 @@ void stretch(const std::int32_t* axis, std::uint32_t count, std::int32_t* to) {
   for (int k = 0; k < 3; ++k) to[k] = (axis[k] * times) >> 4;
 }
 
-std::int32_t reach_of(const std::int32_t* a, const std::int32_t* b, const MeshPlace& place) {
-  std::int32_t reach = 0;
+/// As many bits as the way from the centre to the farthest corner along any axis.
+std::uint32_t reach_of(const std::int32_t* a, const std::int32_t* b, const MeshPlace& place) {
+  const int by = place.kind == PlaceKind::kTriangle ? 1 : 0;
+  std::uint32_t bits = 0;
   for (int k = 0; k < 3; ++k) {
-    const std::int32_t along = magnitude(a[k]) + magnitude(b[k]);
-    if (along > reach) reach = along;
+    bits |= static_cast<std::uint32_t>(magnitude(a[k]) + magnitude(b[k]) + place.extra) << by;
   }
-  return place.kind == PlaceKind::kTriangle ? 2 * reach : reach + place.extra;
+  return bits;
 }
 
 /// Everything of one end, shifted.
@@ -204,14 +205,18 @@ Status Places::take(Arena& arena, const Surfaces& s, const Rules& rules) {
 }
 
 void Places::half_axes(std::uint32_t node, const MeshPlace& mesh, std::int32_t* a, std::int32_t* b) const {
-  std::uint32_t across = 1, up = 1;  // patches
   if (mesh.kind != PlaceKind::kOwn && surfaces_->is_block(node)) {
     const MeshPart& part = surfaces_->block(node).part;
-    across = part.across();
-    up = mesh.kind == PlaceKind::kTriangle ? across : part.up();
+    const std::uint32_t across = part.across();
+    const std::uint32_t up = mesh.kind == PlaceKind::kTriangle ? across : part.up();
+    stretch(mesh.a, across, a);
+    stretch(mesh.b, up, b);
+    return;
   }
-  stretch(mesh.a, across, a);
-  stretch(mesh.b, up, b);
+  for (int k = 0; k < 3; ++k) {
+    a[k] = mesh.a[k] >> 4;
+    b[k] = mesh.b[k] >> 4;
+  }
 }
 
 LatticeBox Places::box(const Surfaces& s, std::uint32_t node, std::uint32_t place, bool whole) const {
@@ -286,7 +291,8 @@ int Places::sign_over(std::uint32_t node, std::uint32_t place, const LatticePoin
   constexpr std::int32_t kTellable = 8 * kOne;
   const std::int32_t* centre = nodes_[node].centre;
   const std::int32_t way[3] = {(point.x - centre[0]) >> 5, (point.y - centre[1]) >> 5, (point.z - centre[2]) >> 5};
-  const std::int16_t* normal = meshes_[place].normal;
+  const MeshPlace& own = place_of(node, place);
+  const std::int16_t* normal = own.kind == PlaceKind::kOwn ? own.normal : meshes_[place].normal;
   const std::int32_t height = normal[0] * way[0] + normal[1] * way[1] + normal[2] * way[2];
   return height > kTellable ? 1 : height < -kTellable ? -1 : 0;
 }
@@ -298,8 +304,7 @@ LinkSeries Places::series(const PlacedSide& i, std::uint32_t j, std::uint32_t pl
   const NodePlace& node = nodes_[j];
   std::int32_t a[3], b[3], way[3];
   half_axes(j, mesh, a, b);
-  std::uint32_t bits = static_cast<std::uint32_t>(i.reach) |
-                       static_cast<std::uint32_t>(reach_of(a, b, mesh));
+  std::uint32_t bits = i.reach | reach_of(a, b, mesh);
   for (int k = 0; k < 3; ++k) {
     way[k] = node.centre[k] - i.centre[k];
     bits |= static_cast<std::uint32_t>(magnitude(way[k]));

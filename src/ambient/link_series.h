@@ -55,7 +55,7 @@ static_assert(sizeof(NodePlace) == 16 && sizeof(MeshPlace) == 40, "memory_plan.c
 /// The receiving end of a row.
 struct PlacedSide {
   std::int32_t centre[3], a[3], b[3], normal[3];  // lattice steps; normal in 1/2^14
-  std::int32_t reach;                             // no corner is farther from the centre along any axis
+  std::uint32_t reach;  // as many bits as the way from the centre to the farthest corner along any axis
   std::int32_t extra;                             // MeshPlace
   double weight;
   PlaceKind kind;

@@ -39,7 +39,7 @@ struct Quarters {
 }  // namespace
 
 double rough_exchange(const PlacedSide& i, const PlacedSide& j) {
-  std::uint32_t bits = static_cast<std::uint32_t>(i.reach) | static_cast<std::uint32_t>(j.reach);
+  std::uint32_t bits = i.reach | j.reach;
   std::int32_t way[3];
   for (int k = 0; k < 3; ++k) {
     way[k] = j.centre[k] - i.centre[k];

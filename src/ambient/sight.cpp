@@ -77,7 +77,8 @@ std::uint64_t Sight::bytes(const Geometry& geometry, const Options& options) {
   if (!features::aims(options.flags)) return 0;
   const std::uint32_t facets = facet_count(geometry);
   return (std::uint64_t{facets} + 7) / 8 * 8 + (2 * std::uint64_t{facets} + 7) / 8 * 8 +
-         (sizeof(LeanBox) * std::uint64_t{facets} + 7) / 8 * 8 + FacetMasks::bytes(facets);
+         (sizeof(LeanBox) * std::uint64_t{facets} + 7) / 8 * 8 + FacetMasks::bytes(facets) +
+         (2 * std::uint64_t{geometry.first_cell.size()} + 7) / 8 * 8;
 }
 
 Status Sight::take(Arena& arena, const Geometry& geometry, const Options& options) {
@@ -85,9 +86,10 @@ Status Sight::take(Arena& arena, const Geometry& geometry, const Options& option
   lists_ = false;
   if (!features::aims(options.flags)) return {};
   const std::uint32_t facets = facet_count(geometry);
+  const std::size_t meshes = geometry.first_cell.size();
   const bool taken = arena.take("kinds of blockers", facets, kinds_) && masks_.take(arena, facets) &&
                      arena.take("boxes of blockers, rounded", facets, lean_) &&
-                     arena.take("blockers of a link", facets, pair_);
+                     arena.take("blockers of a link", facets, pair_) && arena.take("last blockers of meshes", meshes, last_);
   return taken ? Status{} : arena.refused();
 }
 
@@ -95,6 +97,7 @@ void Sight::start(Intersector& intersector) {
   lists_ = intersector.seeking() && intersector.facets().size() <= 0xffff;
   facets_ = intersector.facets();
   for (std::uint16_t& facet : recent_) facet = 0xffff;
+  for (std::uint16_t& facet : last_) facet = 0xffff;
   guess_ = kNone;
   between_ = 0xffff;
   if (!lists_) return;
@@ -180,8 +183,13 @@ std::uint32_t Sight::object_of(std::uint32_t facet) const {
 /// One of the last blockers that blocks the segment, or kNone.
 std::uint32_t Sight::recent_blocker(const LeanSegment& segment, const LatticePoint& p, const LatticePoint& q,
                                     std::uint32_t& tests) const {
+  const std::uint32_t last = last_[place_];
+  if (last < facets_.size() && segment.may_meet(lean_[last])) {
+    tests += facets_[last].count;
+    if (hits(last, p, q)) return last;
+  }
   for (const std::uint32_t f : recent_) {
-    if (f >= facets_.size() || !segment.may_meet(lean_[f])) continue;
+    if (f >= facets_.size() || f == last || !segment.may_meet(lean_[f])) continue;
     tests += facets_[f].count;
     if (hits(f, p, q)) return f;
   }
@@ -189,6 +197,7 @@ std::uint32_t Sight::recent_blocker(const LeanSegment& segment, const LatticePoi
 }
 
 void Sight::remember(std::uint32_t facet) {
+  last_[place_] = static_cast<std::uint16_t>(facet);
   std::uint32_t k = 0;
   while (k + 1 < kRecent && recent_[k] != facet) ++k;
   for (; k > 0; --k) recent_[k] = recent_[k - 1];

@@ -6,14 +6,15 @@
 //     are those that meet the common box of their boxes and aren't beyond a line of their hull (ambient/lean_shaft.h).
 //     With flags off there are no masks; whether that list would be empty is found facet by facet, and agrees. Most
 //     often it isn't, and what stood between two nodes before tells so.
-//   - many links are so dark that one segment decides. For them no list is made: the segment is tested with what it
-//     may meet; only if it is free it is asked whether anything stands between the two nodes at all.
-//   - the last four facets that blocked anything are tried first: in the paper's rooms one of them is in the way of a
-//     third of all first segments. It shows that something stands between; often it blocks all, and no list is needed.
+//   - many links are so dark that one segment or two decide. For them no list is made: a segment is tested with what it
+//     may meet.
+//   - what blocked a segment to the same mesh last, and the last two facets that blocked anything, are tried first: in
+//     the paper's rooms one of them is in the way of a third of all first segments. It shows that something stands
+//     between; often it blocks all, and no list is needed.
 //   - what a segment passes by (ambient/lean_segment.h) isn't tested.
 //   - a facet square to an axis that fills its box is hit if the segment meets its plane within the box: exact with
 //     products of two 32-bit numbers.
-// Exact: the answer for each segment. Bytes: 15 a facet, and the masks' 24 (0 with flags off).
+// Exact: the answer for each segment. Bytes: 15 a facet, and the masks' 24, 2 a mesh (0 with flags off).
 #pragma once
 
 #include <cstdint>
@@ -36,8 +37,11 @@ class Sight {
   /// The facets of a started intersector.
   void start(Intersector& intersector);
 
-  /// Goes on to another pair.
-  void turn_to(const Link& link, const Intersector& intersector) { tested_ = !lists_ || intersector.tested(link); }
+  /// Goes on to another pair; `place`: of its second mesh in Surfaces::mesh_at.
+  void turn_to(const Link& link, std::uint32_t place, const Intersector& intersector) {
+    tested_ = !lists_ || intersector.tested(link);
+    place_ = place;
+  }
   /// Whether nothing can come between two nodes of the pair; boxes hold all ends of segments.
   bool clear(const LatticeBox& a, const LatticeBox& b);
   /// The same, and a list is made of what can.
@@ -51,7 +55,7 @@ class Sight {
   bool blocked_alone(const LatticePoint& p, const LatticePoint& q, const Link& link, Intersector& intersector);
 
  private:
-  static constexpr std::uint32_t kRecent = 4;
+  static constexpr std::uint32_t kRecent = 2;
 
   bool hits(std::uint32_t facet, const LatticePoint& p, const LatticePoint& q) const;
   std::uint32_t object_of(std::uint32_t facet) const;
@@ -70,6 +74,8 @@ class Sight {
   LatticeBox from_, to_;          // of the list, if it isn't made yet
   std::uint32_t guess_ = kNone;   // what was in the way then
   std::uint16_t between_ = 0xffff;  // what clear() met last
+  std::span<std::uint16_t> last_;  // what blocked a mesh last, by place; 0xffff: nothing
+  std::uint32_t place_ = 0;
   std::uint16_t recent_[kRecent];  // blockers, the latest first; 0xffff: none
   bool lists_ = false;
   bool tested_ = true;  // the pair's segments are

@@ -21,7 +21,7 @@ int pieces_for(const std::int32_t* moved) {
       second = way;
     }
   }
-  return second < 2 ? 0 : second < 6 ? 1 : 2;
+  return second < 3 ? 0 : second < 9 ? 1 : 2;
 }
 
 }  // namespace
