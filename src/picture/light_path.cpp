@@ -37,15 +37,12 @@ Vec3 real(const LatticeVector& v) {
 
 LatticeVector normal_of(const DrawnTriangle& t) { return cross(t.vertex[1] - t.vertex[0], t.vertex[2] - t.vertex[0]); }
 
-/// A map coordinate of a hit, sub-patches; as with map_place() none beyond the triangle.
+/// A map coordinate of a hit, sub-patches.
 double coordinate(const std::int32_t (&at)[3], double b, double c) {
   return (at[0] + (b * (static_cast<double>(at[1]) - at[0]) + c * (static_cast<double>(at[2]) - at[0]))) / 256;
 }
 
-double weight(std::int64_t part, double over_speed) {
-  const double w = static_cast<double>(part) * over_speed;
-  return w < 0 ? 0 : w > 1 ? 1 : w;
-}
+double weight(std::int64_t part, double over_speed) { return static_cast<double>(part) * over_speed; }
 
 }  // namespace
 
@@ -136,9 +133,10 @@ void LightPaths::trace(std::int32_t x, std::uint32_t row, std::uint32_t triangle
     path.speed = length(real(path.ray.direction));
   }
   RayHit first;
-  // At grazing angles the rounded ray may miss what the sample sees; it meets something else then.
+  // At an edge the rounded ray may miss what the sample sees: it meets something else then, or on a seam of a pane the
+  // triangle beyond, once.
   const bool sought = triangle != kNone && (tree_.invisible(geometry_->drawn[triangle], true) ||
-                                            !meet_plane(geometry_->drawn[triangle], triangle, path.ray, first));
+                                            !meet(geometry_->drawn[triangle], triangle, path.ray, first));
   if (sought) {
     first = tree_.nearest(path.ray, hint_[0]);
     hint_[0] = first.triangle;

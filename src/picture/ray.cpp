@@ -86,17 +86,6 @@ bool meet(const DrawnTriangle& triangle, std::uint32_t index, const Ray& ray, Ra
   return true;
 }
 
-bool meet_plane(const DrawnTriangle& triangle, std::uint32_t index, const Ray& ray, RayHit& hit) {
-  const LatticeVector &d = ray.direction, a = triangle.vertex[0] - ray.origin, b = triangle.vertex[1] - ray.origin,
-                      c = triangle.vertex[2] - ray.origin;
-  const std::int64_t ab = dot(d, cross(a, b)), bc = dot(d, cross(b, c)), ca = dot(d, cross(c, a));
-  const std::int64_t through = ab + bc + ca, side = -dot(a, cross(b, c));
-  if (through > 0 ? side >= 0 : through == 0 || side <= 0) return false;
-  const std::int64_t weight_b = through > 0 ? ca : -ca, weight_c = through > 0 ? ab : -ab;
-  hit = {index, side > 0, magnitude(side), magnitude(through), weight_b, weight_c};
-  return true;
-}
-
 bool comes_before(std::span<const DrawnTriangle> drawn, const RayHit& a, const RayHit& b) {
   const Int128 left = multiply(a.distance, b.speed), right = multiply(b.distance, a.speed);
   if (left != right) return left < right;
@@ -106,9 +95,7 @@ bool comes_before(std::span<const DrawnTriangle> drawn, const RayHit& a, const R
 MapPlace map_place(const DrawnTriangle& t, const RayHit& hit) {
   const int right = shift_to(hit.speed, 16);
   const std::uint32_t whole = static_cast<std::uint32_t>(hit.speed >> right);
-  const auto part = [&](std::int64_t weight) {  // 2^16: 1; a ray beside the triangle counts as on its border
-    if (weight <= 0) return std::int64_t{0};
-    if (weight >= hit.speed) return std::int64_t{1} << 16;
+  const auto part = [&](std::int64_t weight) {  // 2^16: 1
     const int more = right < 15 ? right : 15;  // as many bits as 32 hold
     const std::uint32_t scaled = static_cast<std::uint32_t>(weight >> (right - more)) << (15 - more);
     const std::uint32_t quotient = scaled / whole;  // of 2^15

@@ -42,9 +42,6 @@ struct RayHit {
 /// False if the ray misses it, or starts in its plane.
 bool meet(const DrawnTriangle& triangle, std::uint32_t index, const Ray& ray, RayHit& hit);
 
-/// Where the ray meets the triangle's plane, within the triangle or not; false if it doesn't.
-bool meet_plane(const DrawnTriangle& triangle, std::uint32_t index, const Ray& ray, RayHit& hit);
-
 /// Whether `a` comes before `b` on their ray: exact, and total.
 bool comes_before(std::span<const DrawnTriangle> drawn, const RayHit& a, const RayHit& b);
 

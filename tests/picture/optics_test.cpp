@@ -44,7 +44,8 @@ struct Outcome {
 
 class OpticsScene {
  public:
-  OpticsScene(const std::string& text, const Options& options) : options_(options), loaded_(text, options) {
+  OpticsScene(const std::string& text, const Options& options, const TestFiles& files = {})
+      : options_(options), loaded_(text, options, files) {
     EXPECT_TRUE(place_scene(loaded_.scene, loaded_.arena, geometry_).done());
     const Scene& scene = loaded_.scene;
     direct_.resize(std::size_t{scene.sub_patch_count} * scene.channels);
@@ -131,8 +132,8 @@ Options small(std::uint32_t width = 160, std::uint32_t height = 120, std::uint32
   return options;
 }
 
-void expect_as_twin(const std::string& text, const Options& options = small()) {
-  OpticsScene scene(text, options);
+void expect_as_twin(const std::string& text, const Options& options = small(), const TestFiles& files = {}) {
+  OpticsScene scene(text, options, files);
   const Outcome outcome = scene.compare();
   testing::Test::RecordProperty("pixels_off", static_cast<int>(outcome.off));  // of the last scene
   EXPECT_LE(outcome.off * 1000, outcome.pixels) << outcome.off << " of " << outcome.pixels;
@@ -209,6 +210,53 @@ TEST(PictureOptics, HighlightsOfAllKindsOfLights) {
                  "quad grey 1.6 2.2 1.1  1.6 2.5 1.1  1.9 2.5 1.1  1.9 2.2 1.1\n"
                  "quad grey 1.6 2.2 0.8  1.6 2.5 0.8  1.9 2.5 0.8  1.9 2.2 0.8\n"
                  "light l polyhedron object lamp luminance 2500\n", small(64, 48));
+}
+
+/// Waves of three colours, so that neither edges nor a single level hide a wrong place or a wrong filter.
+std::string waves() {
+  std::string text = "P6 64 64 255\n";
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        const double wave = std::sin(2 * M_PI * (x * (c + 1) + 2 * y) / 64) * std::cos(2 * M_PI * (y + c) / 32);
+        text += static_cast<char>(static_cast<unsigned char>(150 + 60 * wave));
+      }
+    }
+  }
+  return text;
+}
+
+const std::string kPatterned =
+    "material tiles diffuse 0.35 0.3 0.25 texture w.ppm size 0.7 0.9\n"
+    "material sign diffuse 0.3 texture w.ppm\n"
+    "material inlay diffuse 0.25 reflect 0.3 highlight 0.2 30 texture w.ppm size 0.5 0.5\n"
+    "material etched diffuse 0.1 transmit 0.5 texture w.ppm size 0.6 0.6\n"
+    "object patterned\nquad tiles 0 0.01 0  0 0.01 4  4 0.01 4  4 0.01 0  patches 4 4 sub 1 1\n"
+    "quad sign 0.4 0.5 3.9  0.4 2.5 3.9  3.6 2.5 3.9  3.6 0.5 3.9  patches 4 4 sub 1 1\n";
+
+TEST(PictureOptics, TexturesShowInMirrorsThroughPanesAndOnWhatMirrorsItself) {
+  const TestFiles files{{"w.ppm", waves()}};
+  expect_as_twin(kRoom + kBackWall + kPatterned +
+                 "object m\nquad mirror 0.5 0.5 0.1  2.5 0.5 0.3  2.5 2.5 0.3  0.5 2.5 0.1\n"
+                 "quad chrome 3.9 0.2 0.5  3.7 0.2 3.0  3.7 2.0 3.0  3.9 2.0 0.5\n", small(), files);
+  expect_as_twin(kRoom + kBackWall + kPatterned +
+                 "object m\nquad mirror 0.1 0.3 0.2  0.1 2.7 0.2  0.1 2.7 3.8  0.1 0.3 3.8\n"
+                 "quad mirror 3.9 0.3 3.8  3.9 2.7 3.8  3.9 2.7 0.2  3.9 0.3 0.2\n", small(), files);
+  expect_as_twin(kRoom + kBackWall + kPatterned +
+                 "object panes\nquad glass 0.5 0.2 1.0  2.5 0.2 0.6  2.5 2.2 0.6  0.5 2.2 1.0\n"
+                 "quad etched 1.0 0.1 0.4  2.2 0.1 1.6  2.2 1.9 1.6  1.0 1.9 0.4\n"
+                 "quad blue 1.5 0.3 1.5  3.2 0.3 0.5  3.0 2.0 0.6  1.4 2.4 1.4\n", small(), files);
+  expect_as_twin(kRoom + kBackWall + kPatterned +
+                 "object top\nquad inlay 0.8 0.6 0.8  0.8 0.6 2.6  3.2 0.6 2.6  3.2 0.6 0.8\n"
+                 "light p point at 1.5 2.5 0.5 intensity 200\n", small(120, 90, 4), files);
+}
+
+TEST(PictureOptics, ATexturedLampShinesInMirrors) {
+  // Its pattern is of what it reflects; what it emits is even.
+  expect_as_twin(kRoom + kBackWall + kPatterned +
+                 "object m\nquad mirror 0.5 0.5 0.1  2.5 0.5 0.3  2.5 2.5 0.3  0.5 2.5 0.1\n"
+                 "object lamp\nquad sign 1.2 1.5 3.5  1.2 2.2 3.5  2.4 2.2 3.5  2.4 1.5 3.5\n"
+                 "light l polyhedron object lamp luminance 60\n", small(), {{"w.ppm", waves()}});
 }
 
 TEST(PictureOptics, BrightnessRollsOffAfterAllIsAdded) {

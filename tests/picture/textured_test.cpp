@@ -14,6 +14,7 @@
 #include "support/files.h"
 #include "support/picture_twin.h"
 #include "support/scene_from_text.h"
+#include "support/texture_twin.h"
 
 namespace shodo {
 namespace {
@@ -91,8 +92,8 @@ class TextureTwin {
         return static_cast<double>(std::fabs(n + p == 0 ? 0 : 2 * n * p / (n + p)));
       };
       const double step = std::max({slope(1, 0, 0), slope(1, 0, 1), slope(0, 1, 0), slope(0, 1, 1)});
-      const double value = filtered(texture, texture.size_u != 0, static_cast<double>(texel(at)[0]),
-                                    static_cast<double>(texel(at)[1]), step, c);
+      const double value = filtered_twin(texture, static_cast<double>(texel(at)[0]), static_cast<double>(texel(at)[1]),
+                                         step, c);
       const Display& display = scene_.display;
       steps = steps * value / texture.mean[c] - kWhite * display.min_cd_m2 / (display.max_cd_m2 - display.min_cd_m2);
     }
@@ -102,42 +103,12 @@ class TextureTwin {
  private:
   double light(const Mesh& mesh, double u, double v, std::uint32_t c) const {
     const std::int64_t width = mesh.map_width(), height = mesh.map_height();
-    return bilinear(u, v, [&](std::int64_t x, std::int64_t y) {
+    return bilinear_twin(u, v, [&](std::int64_t x, std::int64_t y) {
       x = std::clamp<std::int64_t>(x, 0, width - 1);
       y = std::clamp<std::int64_t>(y, 0, height - 1);
       const std::size_t at = mesh.first_sub_patch + static_cast<std::size_t>(y * width + x);
       return double{1} * maps_.texel[at * scene_.channels + c];
     });
-  }
-
-  template <class At>
-  static double bilinear(double u, double v, const At& at) {
-    const double x = std::floor(u - 0.5), y = std::floor(v - 0.5), s = u - 0.5 - x, t = v - 0.5 - y;
-    const std::int64_t i = static_cast<std::int64_t>(x), j = static_cast<std::int64_t>(y);
-    return (1 - t) * ((1 - s) * at(i, j) + s * at(i + 1, j)) + t * ((1 - s) * at(i, j + 1) + s * at(i + 1, j + 1));
-  }
-
-  static double linear(std::uint8_t level) {
-    const double s = level / 255.0;
-    return 65535 * (s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
-  }
-
-  static double filtered(const Texture& texture, bool repeats, double s, double t, double step, std::uint32_t c) {
-    std::uint32_t level = 0;
-    while (step >= std::exp2(level + 1)) ++level;
-    const double weight = step <= 1 ? 0 : step / std::exp2(level) - 1;
-    const auto value = [&](std::uint32_t of) {
-      const TextureLevel l = texture_level(texture, of);
-      const std::int64_t w = l.width, h = l.height;
-      const auto kept = [&](std::int64_t k, std::int64_t n) {
-        return repeats ? (k % n + n) % n : std::clamp<std::int64_t>(k, 0, n - 1);
-      };
-      return bilinear(s * l.width / texture.width, t * l.height / texture.height, [&](std::int64_t x, std::int64_t y) {
-        const std::size_t at = static_cast<std::size_t>(kept(y, h) * w + kept(x, w));
-        return linear(l.texel[at * texture.channels + (texture.channels == 1 ? 0 : c)]);
-      });
-    };
-    return (1 - weight) * value(level) + weight * value(level + 1);
   }
 
   const Scene& scene_;

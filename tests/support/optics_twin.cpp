@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "support/texture_twin.h"
+
 namespace shodo {
 
 namespace {
@@ -77,8 +79,43 @@ Colour OpticsTwin::background(const Point& way) const {
   return colour;
 }
 
+/// Where a ray meets a triangle's plane.
+OpticsTwin::Hit OpticsTwin::on_plane(const Triangle& triangle, const Point& from, const Point& way) {
+  const Point p = cross(way, triangle.ac), s = sub(from, triangle.a), q = cross(s, triangle.ab);
+  const double determinant = dot(triangle.ab, p);
+  return {dot(triangle.ac, q) / determinant, dot(s, p) / determinant, dot(way, q) / determinant, &triangle, false};
+}
+
+/// What the texture there makes of the reflectance.
+Colour OpticsTwin::pattern(const Hit& hit, const Rays& rays) const {
+  const DrawnTriangle& drawn = geometry_.drawn[hit.triangle->index];
+  const Mesh& mesh = scene_.meshes[drawn.mesh];
+  const std::uint32_t which = texture_of(scene_, mesh);
+  if (which == kNone) return {1, 1, 1};
+  const Texture& texture = scene_.textures[which];
+  const Repeats repeats = texture_repeats(scene_, mesh, texture);
+  const auto texel = [&](const Hit& at) {
+    const auto mix = [&](const std::int32_t (&corner)[3]) {
+      return (corner[0] + at.b * (corner[1] - corner[0]) + at.c * (corner[2] - corner[0])) / 256.0;
+    };
+    return std::array<double, 2>{mix(drawn.u) * repeats.u / mesh.map_width() * texture.width,
+                                 (1 - mix(drawn.v) * repeats.v / mesh.map_height()) * texture.height};
+  };
+  const std::array<double, 2> here = texel(hit);
+  double step = 0;
+  for (int k = 1; k < 3; ++k) {
+    const std::array<double, 2> there = texel(on_plane(*hit.triangle, rays.from[k], rays.way[k]));
+    for (std::size_t c = 0; c < 2; ++c) step = std::max(step, 1000 * std::abs(there[c] - here[c]));
+  }
+  Colour shown;
+  for (std::uint32_t c = 0; c < 3; ++c) {
+    shown[c] = filtered_twin(texture, here[0], here[1], std::min(step, 16384.0), c) / texture.mean[c];
+  }
+  return shown;
+}
+
 /// The mesh's map, bilinear between the centres of sub-patches; quads and grids whose sub-patches all have values.
-Colour OpticsTwin::surface(const Hit& hit) const {
+Colour OpticsTwin::surface(const Hit& hit, const Rays& rays) const {
   const DrawnTriangle& drawn = geometry_.drawn[hit.triangle->index];
   Colour colour{0, 0, 0};
   if (drawn.mesh == kNone) {
@@ -94,6 +131,7 @@ Colour OpticsTwin::surface(const Hit& hit) const {
   const double u = std::clamp(mix(drawn.u), 0.0, width - 1.0), v = std::clamp(mix(drawn.v), 0.0, height - 1.0);
   const int u0 = std::min(static_cast<int>(u), width - 1), v0 = std::min(static_cast<int>(v), height - 1);
   const std::uint32_t source = scene_.objects[mesh.object].light;
+  const Colour shown = pattern(hit, rays);
   for (std::uint32_t c = 0; c < 3; ++c) {
     const auto lx = [&](int at_u, int at_v) {
       const std::size_t at = mesh.first_sub_patch +
@@ -104,7 +142,7 @@ Colour OpticsTwin::surface(const Hit& hit) const {
     const double f = u - u0, g = v - v0;
     const double mean = (1 - g) * ((1 - f) * lx(u0, v0) + f * lx(u0 + 1, v0)) +
                         g * ((1 - f) * lx(u0, v0 + 1) + f * lx(u0 + 1, v0 + 1));
-    colour[c] = scene_.materials[mesh.material].diffuse.c[c] * mean / M_PI;
+    colour[c] = shown[c] * scene_.materials[mesh.material].diffuse.c[c] * mean / M_PI;
     if (source != kNone) colour[c] += scene_.lights[source].strength * scene_.lights[source].colour.c[c];
   }
   return colour;
@@ -171,14 +209,15 @@ Colour OpticsTwin::highlight(const Optics& optics, const Point& at, const Point&
   return sum;
 }
 
-Colour OpticsTwin::trace(const Point& from, const Point& way, int depth) const {
+Colour OpticsTwin::trace(const Rays& rays, int depth) const {
+  const Point &from = rays.from[0], &way = rays.way[0];
   Colour sum{0, 0, 0}, part{1, 1, 1};
   for (const Hit& hit : hits(from, way, std::numeric_limits<double>::infinity())) {
     const DrawnTriangle& drawn = geometry_.drawn[hit.triangle->index];
     if (drawn.mesh == kNone && scene_.lights[drawn.light].open && (!hit.front || !scene_.background.empty())) continue;
     const Optics* const optics = optics_of(*hit.triangle);
     Colour here{0, 0, 0};
-    if (hit.front) here = surface(hit);
+    if (hit.front) here = surface(hit, rays);
     if (hit.front && optics != nullptr) {
       const Point at = along(from, hit.t, way), &n = hit.triangle->normal;
       if (optics->highlight > 0) {
@@ -186,7 +225,13 @@ Colour OpticsTwin::trace(const Point& from, const Point& way, int depth) const {
         for (std::size_t c = 0; c < 3; ++c) here[c] += shine[c];
       }
       if (depth > 0 && optics->reflect.c[0] + optics->reflect.c[1] + optics->reflect.c[2] > 0) {
-        const Colour seen = trace(at, along(way, -2 * dot(way, n), n), depth - 1);
+        Rays back;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const double t = k == 0 ? hit.t : on_plane(*hit.triangle, rays.from[k], rays.way[k]).t;
+          back.from[k] = along(rays.from[k], t, rays.way[k]);
+          back.way[k] = along(rays.way[k], -2 * dot(rays.way[k], n), n);
+        }
+        const Colour seen = trace(back, depth - 1);
         for (std::size_t c = 0; c < 3; ++c) here[c] += optics->reflect.c[c] * seen[c];
       }
     }
@@ -206,11 +251,17 @@ Colour OpticsTwin::trace(const Point& from, const Point& way, int depth) const {
 Colour OpticsTwin::luminance(double x, double y) const {
   const auto& g = grid_;
   const double step = 1 / geometry_.lattice.steps_per_unit;
-  const auto way = [&](std::int64_t d0, std::int64_t dx, std::int64_t dy) {
-    return static_cast<double>(d0) + x * static_cast<double>(dx) + y * static_cast<double>(dy);
-  };
-  const Point d = unit({way(g.d0.x, g.dx.x, g.dy.x), way(g.d0.y, g.dx.y, g.dy.y), way(g.d0.z, g.dx.z, g.dy.z)});
-  return trace({step * g.eye.x, step * g.eye.y, step * g.eye.z}, d, 8);
+  Rays rays;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double at_x = k == 1 ? x + 1e-3 : x, at_y = k == 2 ? y + 1e-3 : y;
+    const auto way = [&](std::int64_t d0, std::int64_t dx, std::int64_t dy) {
+      return static_cast<double>(d0) + at_x * static_cast<double>(dx) + at_y * static_cast<double>(dy);
+    };
+    rays.from[k] = {step * g.eye.x, step * g.eye.y, step * g.eye.z};
+    rays.way[k] =
+        unit({way(g.d0.x, g.dx.x, g.dy.x), way(g.d0.y, g.dx.y, g.dy.y), way(g.d0.z, g.dx.z, g.dy.z)});
+  }
+  return trace(rays, 8);
 }
 
 std::array<int, 3> OpticsTwin::level(std::uint32_t px, std::uint32_t py, double dx, double dy) const {

@@ -1,6 +1,7 @@
-// A slow, obvious ray caster for mirrors, glass, highlights and the background: recursion, doubles, every triangle at
-// every ray, lights by hundreds of points. Shares no code with the picture; the drawn triangles and the directions of
-// the samples are its input.
+// A slow, obvious ray caster for mirrors, glass, textures, highlights and the background: recursion, doubles, every
+// triangle at every ray, lights by hundreds of points. What a texture's neighbours are, two more rays find, a
+// thousandth of a sample off, that meet the same planes. Shares no code with the picture; the drawn triangles and the
+// directions of the samples are its input.
 #pragma once
 
 #include <array>
@@ -39,9 +40,16 @@ class OpticsTwin {
     bool front;
   };
 
+  /// A sample's ray, and those a thousandth of a sample right of it and below.
+  struct Rays {
+    Point from[3], way[3];
+  };
+
   std::vector<Hit> hits(const Point& from, const Point& way, double end) const;
-  Colour trace(const Point& from, const Point& way, int depth) const;
-  Colour surface(const Hit& hit) const;
+  Colour trace(const Rays& rays, int depth) const;
+  Colour surface(const Hit& hit, const Rays& rays) const;
+  Colour pattern(const Hit& hit, const Rays& rays) const;
+  static Hit on_plane(const Triangle& triangle, const Point& from, const Point& way);
   Colour background(const Point& way) const;
   Colour highlight(const Optics& optics, const Point& at, const Point& normal, const Point& view) const;
   Colour passes(const Point& from, const Point& way, double end) const;
