@@ -19,7 +19,7 @@ inline constexpr Hashes kHashes[] = {
     {"shapes", 0xc9b1c550f33e0033, 0x6bae46df3570df52},
     {"rules", 0x6273541003762f78, 0xd3c6e30876d572e4},
     {"rule2+", 0xc036a9ed51588182, 0x30775391f7383ca3},
-    {"blocks", 0x5893e099251dbb4a, 0x36c68ca7622121c4},
+    {"blocks", 0xd0aee0ad0c6bf11a, 0xadec2535ebd38703},
     {"planes", 0xd968bcb115f4acf7, 0x0705705b6ae7d01e},
     {"textures", 0xd59f1eab32955471, 0x9a330aa220930530},
     {"day", 0xdad13cb4bf5236a9, 0xc93fbed20444a7d0},
