@@ -18,6 +18,7 @@ constexpr double kSeriesShare = 0.5;    // the part of REL that a series may use
 constexpr double kMostNearError = 0.1;
 constexpr double kMostRough = 5e-3;     // error of v beyond which geometry is as exact as --tiers says
 constexpr double kDiscError = 0.2;      // of the disc's form factor, for the row's sum
+constexpr double kDiscVaries = 0.5;     // d^2 of blocks so near to each other
 
 /// Of shapes that have no place on the lattice, in floating point.
 LinkSeries odd_series(const Surfaces& s, const RowSide& side, std::uint32_t j) {
@@ -152,6 +153,8 @@ Step BlockJudge::decide(const RowSide& side, std::uint32_t j) {
                 (pair.patches || series.error > options_.tiers * series.most);
     if (pair.near && !pair.patches) return pair.split;
   }
+  found_.vary_i = !i_block ? 0 : has_series ? series.vary_i : kDiscVaries;
+  found_.vary_j = !j_block ? 0 : has_series ? series.vary_j : kDiscVaries;
   // However dark it is: rows are to sum to 1.
   pair.near = pair.near || (has_series ? series.error : kDiscError * series.value) > kMostRough;
   return measure(side, pair) ? look(pair) : Step::kNothing;

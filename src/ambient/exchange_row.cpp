@@ -21,6 +21,14 @@ void note_errors(const PairExchange& pair, const VisibleFraction& visible, doubl
   errors.visibility[j] += squared / (area_j * area_j);
 }
 
+/// What the parts of a block miss of their own.
+void note_variation(const BlockLink& link, double area_i, double area_j, std::uint32_t i, std::uint32_t j,
+                    RowErrors& errors) {
+  const double exchange = link.pair.geometric * link.visible.value, squared = exchange * exchange;
+  if (link.vary_i > 0) errors.visibility[i] += squared * link.vary_i / (area_i * area_i);
+  if (link.vary_j > 0) errors.visibility[j] += squared * link.vary_j / (area_j * area_j);
+}
+
 struct RowContext {
   RowContext(const Surfaces& s, const Options& o, Intersector& x, const RowSide& i)
       : surfaces(s), options(o), intersector(x), side(i), root_area(s.root_area[i.position]) {
@@ -91,6 +99,9 @@ void compute_row(const Surfaces& surfaces, const Sparsity& sparsity, LinkWalk& w
         [&](std::uint32_t j) {
           if (sparsity.generation(i, j) != generation) return;
           put_link(surfaces, i, j, judge.found().pair, judge.found().visible, writer, errors);
+          if (errors == nullptr) return;
+          const double root_i = surfaces.root_area[i], root_j = surfaces.root_area[j];
+          note_variation(judge.found(), root_i * root_i, root_j * root_j, i, j, *errors);
         });
     return;
   }

@@ -261,14 +261,6 @@ LatticeBox Places::box(const Surfaces& s, std::uint32_t node, std::uint32_t plac
   return box;
 }
 
-LatticeBox Places::mesh_box(const Surfaces& s, std::uint32_t place) const {
-  LatticeBox all;
-  for (std::uint32_t node = s.mesh_begin[place]; node < s.mesh_begin[place + 1]; node = s.end(node)) {
-    if (s.root_area[node] > 0) all.include(box(s, node, place, true));
-  }
-  return all;
-}
-
 PlacedSide Places::side(std::uint32_t node, std::uint32_t mesh_place) const {
   PlacedSide side;
   const NodePlace& place = nodes_[node];

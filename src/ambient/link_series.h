@@ -82,7 +82,6 @@ class Places {
 
   /// Around all of a node where segments may end, boxes of its parts inside; or around its cached samples.
   LatticeBox box(const Surfaces& surfaces, std::uint32_t node, std::uint32_t place, bool whole) const;
-  LatticeBox mesh_box(const Surfaces& surfaces, std::uint32_t place) const;
   PlacedSide side(std::uint32_t node, std::uint32_t mesh_place) const;
   /// Where a sample's lattice point is to the plane of a node, whose mesh has this place: 1 in front, -1 behind, 0 too
   /// near to tell.

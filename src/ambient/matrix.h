@@ -8,7 +8,8 @@
 // Row sums (deviation D3). S is the sum of the stored F_ij, L the part of the hemisphere that area lights and
 // openings fill. In a closed scene S + L = 1. The row is scaled to S = 1 - L if S + L > 1, or if it is below 1 by no
 // more than its estimated error:
-//     the tiers' errors added up + 3 standard errors of its mixed visible fractions + 2^-12 S (rounding of values)
+//     the tiers' errors added up + 3 standard errors of its mixed visible fractions, and of what blocks hand down
+//     evenly though it varies over them (v d_i of ambient/block_link.h) + 2^-12 S (rounding of values)
 //     + L / 64 (direct light samples its shadows) + S h / 8 if a part of the patch is hidden (its share is found twice,
 //     by sub-patches and by segments), h = (1 - visible share) / visible share, at most 1.
 // If rule 2 left a column out, rows are scaled down only (deviation D14): what is missing then is missing on purpose.

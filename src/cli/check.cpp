@@ -119,6 +119,10 @@ std::string warnings_text(const Model& model) {
     text += "warning:   " + count(pairs, "pair", "pairs") +
             " of polygons in one plane overlap: they receive and send light twice\n";
   }
+  if (const std::uint64_t pairs = merged_plates(model); pairs != 0) {
+    text += "warning:   " + count(pairs, "pair", "pairs") +
+            " of polygons that face each other, nearer than two lattice steps, exchange no light\n";
+  }
   return text;
 }
 

@@ -42,14 +42,6 @@ bool Panes::between(const LatticeBox& a, const LatticeBox& b) const {
   return false;
 }
 
-bool Panes::along(const LatticeBox& a, const LatticeVector& direction) const {
-  Shaft shaft = Shaft::along(a, direction);
-  for (const Pane& pane : geometry_->panes) {
-    if (!shaft.misses(pane.box)) return true;
-  }
-  return false;
-}
-
 template <class Passes>
 double Panes::product(const LatticeBox& around, Passes passes_one) const {
   double part = 1;

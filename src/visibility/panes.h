@@ -28,10 +28,8 @@ class Panes {
   void set_channel(std::uint32_t channel) { channel_ = channel; }
   std::uint32_t channel() const { return channel_; }
 
-  /// False if no segment between points of the boxes, no ray from points of the box, passes a pane; the same whatever
-  /// finds blockers.
+  /// False if no segment between points of the boxes passes a pane; the same whatever finds blockers.
   bool between(const LatticeBox& a, const LatticeBox& b) const;
-  bool along(const LatticeBox& a, const LatticeVector& direction) const;
 
   /// The part of light that panes let through from p to q, from p along a direction; 1 without any.
   double pass(const LatticePoint& p, const LatticePoint& q) const;

@@ -302,6 +302,25 @@ TEST(Blocks, LinksCoverEveryPairOnceAndKeepTheEnergy) {
   }
 }
 
+TEST(Blocks, InABareRoomRowsAreScaledToOneAndTheLightIsKept) {
+  // The parts of a block get its mean and so too much or too little; the estimated error of their rows counts that, so
+  // that too little is scaled up as too much is scaled down. What is lost still: scaling a row isn't scaling its column.
+  AmbientScene scene(grey(0.5) + box_walls(6, 5, 3, 8, 8, 8, "white"), with_rules(blocks(0)));
+  scene.light([](const Vec3& p, std::uint32_t) {  // of a small ball
+    const Vec3 way = Vec3{2, 2, 2} - p;
+    return 100 / (dot(way, way) + 0.3);
+  });
+  ASSERT_TRUE(scene.solve().done());
+  double sent = 0, all = 0;
+  for (std::size_t i = 0; i < scene.patches.size(); ++i) {
+    sent += scene.patches[i].area * scene.lux[i];
+    all += scene.patches[i].area * scene.total(i);
+  }
+  EXPECT_NEAR(all * 0.5 / sent, 1, 0.01);
+  const StoredMatrix stored(scene);
+  EXPECT_GT(scene.statistics.rows_scaled, stored.n * 95 / 100);
+}
+
 TEST(Blocks, TheSolutionIsThatOfTheStoredMatrix) {
   for (const double error : {1e-1, 1e-2, 1e-3}) {
     AmbientScene scene(furnished(kRho, 2), with_rules(blocks(error)));

@@ -377,6 +377,26 @@ TEST(Check, SaysWhatWillBeModelled) {
   EXPECT_EQ(check.out.find("warning"), std::string::npos) << check.out;
 }
 
+TEST(Check, WarnsOfPlatesThatFaceEachOtherNearerThanTheLatticeTells) {
+  const TestFolder folder;
+  // A step is 3.8e-6 here.
+  const auto warned = [&](const std::string& second) {
+    folder.write("x.scn", "shodo 1\nunit m\ncamera c eye 0.5 -2 0.5 look 0.5 0 0 up 0 0 1 fov 60\n"
+                          "material grey diffuse 0.5\nobject a\nquad grey 0 0 0  1 0 0  1 1 0  0 1 0 patches 2 2 sub 1 1\n"
+                          "object b\n" + second + " patches 2 2 sub 1 1\n"
+                          "light l point at 0.5 0.5 -1 intensity 100\n");
+    const Outcome check = run({"check", "x.scn"}, folder.path());
+    EXPECT_EQ(check.status, 0) << check.err;
+    return check.out.find("1 pair of polygons that face each other") != std::string::npos;
+  };
+  EXPECT_TRUE(warned("quad grey 0 0 1e-6  0 1 1e-6  1 1 1e-6  1 0 1e-6"));
+  EXPECT_TRUE(warned("quad grey 0.5 0 1e-7  0.5 2 1e-7  2 2 1e-7  2 0 1e-7")) << "in part";
+  EXPECT_FALSE(warned("quad grey 0 0 1e-4  0 1 1e-4  1 1 1e-4  1 0 1e-4")) << "apart";
+  EXPECT_FALSE(warned("quad grey 0 0 -1e-6  0 1 -1e-6  1 1 -1e-6  1 0 -1e-6")) << "back to back";
+  EXPECT_FALSE(warned("quad grey 0 0 0  0 1 0  1 1 0  1 0 0")) << "two sides of one sheet";
+  EXPECT_FALSE(warned("quad grey 2 0 1e-6  2 1 1e-6  3 1 1e-6  3 0 1e-6")) << "beside each other";
+}
+
 TEST(Check, CountsPolygonsInOnePlaneThatOverlap) {
   const TestFolder folder;
   const std::string head =
