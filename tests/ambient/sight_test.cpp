@@ -193,8 +193,8 @@ class Sights : public testing::Test {
     EXPECT_EQ(Sight::bytes(scene.geometry, off), 0u);
     sight.start(seeking);
     twin.start(trying);
-    sight.turn_to(link, seeking);
-    twin.turn_to(link, trying);
+    sight.turn_to(link, 0, seeking);
+    twin.turn_to(link, 0, trying);
   }
   LatticeBox node(Random& random) const {
     const LatticeBox box = random_box(random, 1 << between(random, 8, 17), false);
