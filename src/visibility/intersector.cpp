@@ -319,7 +319,8 @@ std::uint32_t Intersector::shadow_among(const Segments& segments, std::uint32_t 
   std::uint32_t shadow = 0, first = 0;
   std::uint64_t tests = 0;
   const LatticeBox from = box_of(segments.from);
-  Shaft shaft(from, segments.box);
+  LatticeBox around = from;
+  around.include(segments.box);
   const bool sifted = aim.grid != nullptr;
   for (std::uint32_t k = 0; k < facets.size() && shadow != wanted; ++k) {
     std::uint32_t open = wanted & ~shadow;
@@ -329,7 +330,7 @@ std::uint32_t Intersector::shadow_among(const Segments& segments, std::uint32_t 
     tests += facet.count * count_bits(open);
     if (facet.rectangle != 0) {  // the test itself is as fast
     } else if (!sifted) {
-      if (shaft.misses(facet.box)) continue;
+      if (apart(around, facet.box)) continue;
     } else {
       open &= aim.grid->shadow(facet.box, from);
       if (open == 0) continue;
