@@ -2,11 +2,13 @@
 
 namespace shodo {
 
-double intensity(const Light& light, const Vec3& away) {
+double intensity(const Light& light, const Vec3& away) { return intensity(light, away, length(away)); }
+
+double intensity(const Light& light, const Vec3& away, double length) {
   if (!light.aimed) return light.strength;
   const double along = dot(light.towards, away);
   if (!(along > 0)) return 0;
-  const double cosine = along / length(away);
+  const double cosine = along / length;
   return light.strength * power(cosine < 1 ? cosine : 1, light.cosine_exponent);
 }
 

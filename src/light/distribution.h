@@ -8,6 +8,8 @@ namespace shodo {
 /// Luminous intensity of a point light in direction `away` (from the light, any length), cd: I, or I cos^n about
 /// `towards` and 0 behind. Nothing along the zero vector if the light is aimed.
 double intensity(const Light& light, const Vec3& away);
+/// The same, given the length of `away`.
+double intensity(const Light& light, const Vec3& away, double length);
 
 /// 1 / (C + L d + Q d^2), per square metre, d in metres; 0 where that is not a positive number. Finite for d > 0.
 double attenuation(const Light& light, double metres);

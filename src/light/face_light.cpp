@@ -26,6 +26,8 @@ double kernel(const Vec3& from, const Vec3& normal, const Vec3& to, const Vec3& 
   return above * -dot(emitter_normal, way) / (squared * squared);
 }
 
+bool is_in(std::uint32_t faces, std::uint32_t face) { return face < 32 && (faces >> face & 1) != 0; }
+
 FaceReach reach_of(const SubPatchView& view, const Emitter& emitter) {
   const double squared = length_squared(emitter.centre - view.centre);
   const double near = emitter.radius + kNearRadii * view.radius, very_near = emitter.radius + view.radius;
@@ -257,7 +259,7 @@ void FaceLight::look_at_ends(const SubPatchView& view, const ReceiverGroup& grou
     const std::uint32_t end = face.emitter->first_end + e;
     ends[f] = emitters_->lattice_ends[end];
     box.include(ends[f]);
-    above |= ends_above(view, face, end, 1) << f;
+    above |= (face.below ? ends_above(view, face, end, 1) : 1) << f;
   }
   for (std::uint32_t k = 0; k < group.count; ++k) {
     if (end_of(group, k) != e && look.reach == FaceReach::kFar) continue;  // near: all samples look at all
@@ -324,8 +326,15 @@ void FaceLight::look_at_faces(const SubPatchView& view, const ReceiverGroup& gro
   aims_->used(any.light, batch.aim);
 }
 
+/// From a point at least so far away, of a face of a polyhedron; kNear: not known.
+FaceLight::Tier FaceLight::tier_at(double distance, const Emitter& emitter) const {
+  if (emitter.is_area() || !(distance > 0)) return Tier::kNear;
+  const double q = (4.0 / 3) * (emitter.radius * emitter.radius) / (distance * distance);
+  return q <= tiers_ ? Tier::kFar : kMiddleError * q * q <= tiers_ ? Tier::kMiddle : Tier::kNear;
+}
+
 double FaceLight::factor_at(const Vec3& point, const Receiver& receiver, std::uint32_t first, std::uint32_t count,
-                            bool odd) const {
+                            std::uint32_t behind, double distance, bool odd) const {
   SubPatchView view;
   view.receiver = &receiver;
   view.centre = point;
@@ -333,8 +342,9 @@ double FaceLight::factor_at(const Vec3& point, const Receiver& receiver, std::ui
   for (std::uint32_t e = first; e < first + count; ++e) {
     Face face;
     face.emitter = &emitters_->faces[e];
-    if (!(face.emitter->height(point) > 0)) continue;
-    const Tier tier = tier_of(view, face);
+    if (is_in(behind, e - first) || !(face.emitter->height(point) > 0)) continue;
+    Tier tier = tier_at(distance, *face.emitter);
+    if (tier == Tier::kNear) tier = tier_of(view, face);
     if (tier == Tier::kNothing) continue;
     if (tier == Tier::kFar || tier == Tier::kMiddle) {
       const Emitter& emitter = *face.emitter;
@@ -420,12 +430,13 @@ void FaceLight::look_at_one(const SubPatchView& view, const ReceiverGroup& group
 
 FaceLook FaceLight::look(const SubPatchView& view, const ReceiverGroup& group, const Link& link, std::uint32_t first,
                          std::uint32_t count, const LatticeBox& ends, const LatticeBox& whole,
-                         const EndGrid* grid, double given) const {
+                         const EndGrid* grid, double given, std::uint32_t behind) const {
   FaceLook look;
   Batch batch;
   batch.given = given;
   bool only = true;
   for (std::uint32_t e = first; e < first + count; ++e) {
+    if (given >= 0 && is_in(behind, e - first)) continue;
     Face& face = batch.face[batch.count];
     face.emitter = &emitters_->faces[e];
     if (!take_face(view, group, given, face, look)) continue;

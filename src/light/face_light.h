@@ -62,14 +62,16 @@ class FaceLight {
         tiers_(tiers) {}
 
   /// Faces `first` to `first + count`, all of one light, ascending, of which the samples receive `given` together if it
-  /// isn't below 0: then shares of the faces are found roughly. `ends`: the box around the ends of all of them,
+  /// isn't below 0: then shares of the faces are found roughly, and none of those in `behind`. `ends`: the box around the ends of all of them,
   /// `whole`: around all their points; `grid`: of an area light's ends, or null.
   FaceLook look(const SubPatchView& view, const ReceiverGroup& group, const Link& link, std::uint32_t first,
                 std::uint32_t count, const LatticeBox& ends, const LatticeBox& whole, const EndGrid* grid,
-                double given) const;
+                double given, std::uint32_t behind) const;
   /// The factor of all of them at one point, up to the error that is allowed; of two neighbouring points one is `odd`.
+  /// None is nearer than `distance`, all of a polyhedron is above the horizon, and of its first 32 faces those in
+  /// `behind` (a bit each) look the other way.
   double factor_at(const Vec3& point, const Receiver& receiver, std::uint32_t first, std::uint32_t count,
-                   bool odd) const;
+                   std::uint32_t behind, double distance, bool odd) const;
   /// Only `factor`, and of the faces within this reach; no segments.
   FaceLook factors(const SubPatchView& view, const ReceiverGroup& group, FaceReach reach, std::uint32_t first,
                    std::uint32_t count) const;
@@ -81,6 +83,7 @@ class FaceLight {
   class EndWeights;
 
   Tier tier_of(const SubPatchView& view, Face& face) const;
+  Tier tier_at(double distance, const Emitter& emitter) const;
   double pair_kernel(const Vec3& point, const Vec3& normal, const Emitter& emitter, bool odd) const;
   double mean_kernel(const SubPatchView& view, const Emitter& emitter) const;
   void find_factors(const SubPatchView& view, const ReceiverGroup& group, Face& face) const;

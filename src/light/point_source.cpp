@@ -49,9 +49,10 @@ PointLux point_lux(const Scene& scene, const Light& light, const Receiver& recei
   double distance = length(away);
   // Straight below, d is the height but for rounding; on the sample itself it may come out as 0.
   const double cosine = height < distance ? height / distance : 1;
+  const double candela = intensity(light, away, distance);
   const bool clamped = distance < step;
   if (clamped) distance = step;
-  return {intensity(light, away) * cosine * attenuation(light, distance * scene.metres_per_unit), clamped};
+  return {candela * cosine * attenuation(light, distance * scene.metres_per_unit), clamped};
 }
 
 bool is_faint(const Scene& scene, const Light& light, const Vec3& point, double lux) {

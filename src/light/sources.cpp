@@ -8,7 +8,7 @@ namespace shodo {
 namespace {
 
 /// A patch is as far from a light as so many of its own radii, or more, if its factors are interpolated.
-constexpr double kFieldRadii = 4;
+constexpr double kFieldRadii = 3;
 
 Vec3 unit_of(const LatticeVector& v) {
   return normalised({static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)});
@@ -56,24 +56,24 @@ void Sources::share_factors(const Receiver& receiver, const Piece& patch) {
   shared_ = true;
   patch_receiver_ = receiver;
   patch_ = patch;
+  patch_centre_ = patch.centre();
+  patch_radius_ = 0;
+  for (const Vec3& corner : patch.corner) {
+    const double reach = length(corner - patch_centre_);
+    if (reach > patch_radius_) patch_radius_ = reach;
+  }
   for (Source& source : sources_) source.field.state = FactorField::State::kNotYet;
 }
 
 /// Whether the patch is far enough from the light, and each is on one side of the other's plane.
 FactorField::State Sources::field_of(const Source& source) const {
-  const Vec3 centre = patch_.centre();
-  double radius = 0;
-  for (const Vec3& corner : patch_.corner) {
-    const double reach = length(corner - centre);
-    if (reach > radius) radius = reach;
-  }
   const Emitter& face = emitters_.faces[source.first_emitter];
   if (!face.is_area()) {
     const double height = patch_receiver_.height(source.centre);
     if (height <= -source.radius) return FactorField::State::kDark;
     if (height < source.radius) return FactorField::State::kNone;
-    const double far = length(source.centre - centre) - source.radius;
-    return far >= kFieldRadii * radius ? FactorField::State::kUsable : FactorField::State::kNone;
+    const double far = length(source.centre - patch_centre_) - source.radius;
+    return far >= kFieldRadii * patch_radius_ ? FactorField::State::kUsable : FactorField::State::kNone;
   }
   const Piece light = emitter_piece(*scene_, face);
   std::uint32_t above = 0, front = 0;
@@ -86,16 +86,26 @@ FactorField::State Sources::field_of(const Source& source) const {
   // The light's point next to the patch, as if its sides were square to each other.
   Vec3 nearest = light.corner[0];
   for (const Vec3& side : {light.corner[1] - light.corner[0], light.corner[3] - light.corner[0]}) {
-    const double at = dot(centre - light.corner[0], side) / length_squared(side);
+    const double at = dot(patch_centre_ - light.corner[0], side) / length_squared(side);
     nearest = nearest + (at > 1 ? 1 : at > 0 ? at : 0) * side;
   }
-  const double reach = kFieldRadii * radius;
-  return length_squared(nearest - centre) >= reach * reach ? FactorField::State::kUsable : FactorField::State::kNone;
+  const double reach = kFieldRadii * patch_radius_;
+  return length_squared(nearest - patch_centre_) >= reach * reach ? FactorField::State::kUsable : FactorField::State::kNone;
+}
+
+std::uint32_t Sources::faces_behind(const Source& source) const {
+  std::uint32_t behind = 0;
+  for (std::uint32_t e = 0; e < source.emitter_count && e < 32; ++e) {
+    if (emitters_.faces[source.first_emitter + e].height(patch_centre_) < -patch_radius_) behind |= std::uint32_t{1} << e;
+  }
+  return behind;
 }
 
 void Sources::fill(std::uint32_t l, Source& source) {
   source.field.state = inverse_square(light(l)) ? field_of(source) : FactorField::State::kNone;
+  source.behind = 0;
   if (source.field.state != FactorField::State::kUsable) return;
+  if (light(l).kind == LightKind::kPolyhedron) source.behind = faces_behind(source);
   const FaceLight faces = face_light();
   const Vec3 side_s = patch_.corner[1] - patch_.corner[0], side_t = patch_.corner[3] - patch_.corner[0];
   double value[FactorField::kNodes][FactorField::kNodes];
@@ -103,7 +113,9 @@ void Sources::fill(std::uint32_t l, Source& source) {
     for (std::uint32_t i = 0; i < FactorField::kNodes; ++i) {
       const double s = FactorField::node(i) + 0.5, t = FactorField::node(j) + 0.5;
       const Vec3 point = patch_.corner[0] + s * side_s + t * side_t;
-      value[j][i] = faces.factor_at(point, patch_receiver_, source.first_emitter, source.emitter_count,
+      const double distance = length(source.centre - point) - source.radius;
+      value[j][i] = faces.factor_at(point, patch_receiver_, source.first_emitter, source.emitter_count, source.behind,
+                                    distance,
                                     (i + j) % 2 != 0);
     }
   }
@@ -251,7 +263,7 @@ FaceLook Sources::look(std::uint32_t l, const SubPatchView& view, const Receiver
   aimed_ = kNone;  // another wide aim follows
   const EndGrid* const grid = light(l).kind == LightKind::kArea ? &source.grid : nullptr;
   return face_light().look(view, group, link(l, *view.receiver), source.first_emitter, source.emitter_count,
-                           source.ends, source.whole, grid, shared_factor);
+                           source.ends, source.whole, grid, shared_factor, source.behind);
 }
 
 FaceLook Sources::factors(std::uint32_t l, const SubPatchView& view, const ReceiverGroup& group, FaceReach reach) {

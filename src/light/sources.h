@@ -2,7 +2,7 @@
 // of an area or polyhedral light do these? (paper 2.1)
 //
 // With flags a light is aimed at once from all samples of a sub-patch, and the faces of it again: where nothing can
-// come between, no segment is sent. Bytes: 392 a light, and those of light/emitter.h and light/patch_aims.h.
+// come between, no segment is sent. Bytes: 400 a light, and those of light/emitter.h and light/patch_aims.h.
 #pragma once
 
 #include <cstdint>
@@ -87,11 +87,13 @@ class Sources {
     Vec3 centre;         // of the sphere that holds an area light or polyhedron
     double radius = 0;
     FactorField field;   // over the patch
+    std::uint32_t behind = 0;  // of a polyhedron's first 32 faces those (a bit each) that look away from all of it
   };
 
   FaceLight face_light() { return FaceLight(*scene_, *geometry_, *intersector_, aims_, emitters_, tiers_); }
   void enclose(Source& source) const;
   FactorField::State field_of(const Source& source) const;
+  std::uint32_t faces_behind(const Source& source) const;
   void fill(std::uint32_t l, Source& source);
   Received receive_point(std::uint32_t l, const Receiver& receiver, const Sample& sample, bool trace_dark);
   Received receive_sun(std::uint32_t l, const Receiver& receiver, const Sample& sample);
@@ -113,6 +115,8 @@ class Sources {
   bool shared_ = false;  // what follows is of the patch at work
   Receiver patch_receiver_;
   Piece patch_;
+  Vec3 patch_centre_;
+  double patch_radius_ = 0;  // of the sphere about the centre that holds its corners
   Emitters emitters_;
   LatticeBox expected_;                 // samples
   Aim aim_;                             // from them to light aimed_, for receiver aimed_object_

@@ -19,6 +19,12 @@ std::uint32_t count_nodes(std::uint32_t facets) {
   return 2 * leaves - 1;
 }
 
+bool is_parallelogram(std::span<const Triangle> triangles) {
+  if (triangles.size() != 2) return false;
+  const Triangle &first = triangles[0], &second = triangles[1];
+  return first.a == second.c && first.c == second.a && first.b - first.a == first.c - second.b;
+}
+
 /// Where a point is: both, if in the plane.
 struct Sides {
   bool front = false, behind = false;
@@ -80,7 +86,7 @@ std::uint32_t Blockers::add_facets(const Geometry& geometry, const PolygonTriang
     facet.count = static_cast<std::uint8_t>(count);
     bool tilted = false;
     facet.box = facet_box(triangles, tilted);
-    facet.tilted = tilted ? 1 : 0;
+    facet.tilted = !tilted ? 0 : is_parallelogram(triangles) ? 2 : 1;
     facet.rectangle = !tilted && fill_box(triangles, facet.box) ? 1 : 0;
     facet.blocks = 3;
     return facet.rectangle != 0;

@@ -26,7 +26,7 @@ struct Facet {
   std::uint32_t first = 0;   // triangle
   std::uint8_t count = 1;    // 1 or 2, more of a whole rectangle
   std::uint8_t blocks = 3;   // bit s: in LightSet s
-  std::uint8_t tilted = 0;   // 1: not square to an axis
+  std::uint8_t tilted = 0;   // 1: not square to an axis; 2: and its two triangles a b c, c d a are a parallelogram
   std::uint8_t rectangle = 0;  // 1: its triangles fill its box, square to an axis
 };
 static_assert(sizeof(Facet) == 32);

@@ -50,8 +50,7 @@ struct Intersector::Nearest {
   std::int64_t distance = 0, speed = 1;
 
   /// Two are compared by cross products of 128 bits. Ties: front before back, then the lower index.
-  void offer(const Triangle& triangle, std::uint32_t k, const LatticePoint& p, const LatticeVector& direction) {
-    if (!blocks_ray(triangle, p, direction)) return;
+  void meet(const Triangle& triangle, std::uint32_t k, const LatticePoint& p, const LatticeVector& direction) {
     const std::int64_t side = triangle.side(p);
     const std::int64_t through = dot(triangle.n, direction);
     const std::int64_t far = side < 0 ? -side : side;
@@ -64,6 +63,9 @@ struct Intersector::Nearest {
     hit = other;
     distance = far;
     speed = fast;
+  }
+  void offer(const Triangle& triangle, std::uint32_t k, const LatticePoint& p, const LatticeVector& direction) {
+    if (blocks_ray(triangle, p, direction)) meet(triangle, k, p, direction);
   }
 };
 
@@ -317,7 +319,8 @@ std::uint32_t Intersector::shadow_among(const Segments& segments, std::uint32_t 
   std::uint32_t shadow = 0, first = 0;
   std::uint64_t tests = 0;
   const LatticeBox from = box_of(segments.from);
-  Shaft shaft(from, segments.box);
+  LatticeBox around = from;
+  around.include(segments.box);
   const bool sifted = aim.grid != nullptr;
   for (std::uint32_t k = 0; k < facets.size() && shadow != wanted; ++k) {
     std::uint32_t open = wanted & ~shadow;
@@ -325,9 +328,10 @@ std::uint32_t Intersector::shadow_among(const Segments& segments, std::uint32_t 
     if (open == 0) continue;
     const Facet& facet = blockers_.facets()[facets[k]];
     tests += facet.count * count_bits(open);
-    if (!sifted) {
-      if (shaft.misses(facet.box)) continue;
-    } else if (facet.rectangle == 0) {
+    if (facet.rectangle != 0) {  // the test itself is as fast
+    } else if (!sifted) {
+      if (apart(around, facet.box)) continue;
+    } else {
       open &= aim.grid->shadow(facet.box, from);
       if (open == 0) continue;
     }
@@ -400,7 +404,12 @@ void Intersector::offer(const Facet& facet, const LatticePoint& p, const Lattice
   around.include(end);
   if (apart(around, facet.box)) return;
   if (facet.tilted == 0 && !passes_flat(facet, p, {end.x - p.x, end.y - p.y, end.z - p.z})) return;
-  for (std::uint32_t t = facet.first; t < facet.first + facet.count; ++t) {
+  std::uint32_t t = facet.first;
+  if (facet.rectangle != 0 && facet.count > 2) {  // one of its triangles, all in one plane
+    while (geometry_->triangles[t].n == LatticeVector{}) ++t;
+    return best.meet(geometry_->triangles[t], t, p, direction);
+  }
+  for (; t < facet.first + facet.count; ++t) {
     best.offer(geometry_->triangles[t], t, p, direction);
   }
 }

@@ -60,7 +60,7 @@ struct Condition {
 
 /// Of all ends at once: conditions that hold for some of them, or nobody knows yet.
 struct Conditions {
-  Condition open[4];
+  Condition open[5];
   std::uint32_t count = 0;
 
   /// False if it surely holds for none.
@@ -107,7 +107,13 @@ struct Side {
 
 }  // namespace
 
-std::uint32_t shadow_of(const Triangle& triangle, const Segments& segments, std::uint32_t wanted) {
+namespace {
+
+LatticeVector operator-(const LatticeVector& a, const LatticeVector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+
+/// Of a triangle, or of a parallelogram whose first half it is: d is then the fourth corner.
+std::uint32_t shadow_of(const Triangle& triangle, const LatticePoint* fourth, const Segments& segments,
+                        std::uint32_t wanted) {
   const LatticePoint& p = segments.from;
   const std::int64_t here = triangle.side(p);
   if (here == 0) return 0;
@@ -118,17 +124,33 @@ std::uint32_t shadow_of(const Triangle& triangle, const Segments& segments, std:
   Conditions conditions;
   if (!conditions.add(n, 1 - sign * here, ways)) return 0;
   const LatticePoint a = way(p, triangle.a), b = way(p, triangle.b), c = way(p, triangle.c);
-  const LatticeVector ab = sign > 0 ? small_cross(a, b) : small_cross(b, a);
+  const auto edge = [&](const LatticePoint& from, const LatticePoint& to) {
+    return sign > 0 ? small_cross(from, to) : small_cross(to, from);
+  };
+  const LatticeVector ab = edge(a, b);
   if (!conditions.add(ab, 0, ways)) return 0;
-  const LatticeVector bc = sign > 0 ? small_cross(b, c) : small_cross(c, b);
+  const LatticeVector bc = edge(b, c);
   if (!conditions.add(bc, 0, ways)) return 0;
-  if (!conditions.add({n.x - ab.x - bc.x, n.y - ab.y - bc.y, n.z - ab.z - bc.z}, 0, ways)) return 0;
+  // The edges' determinants add up to N.d, of a parallelogram to twice that.
+  LatticeVector rest = n - ab - bc;
+  if (fourth != nullptr) {
+    const LatticeVector cd = edge(c, way(p, *fourth));
+    if (!conditions.add(cd, 0, ways)) return 0;
+    rest = rest - (cd - n);
+  }
+  if (!conditions.add(rest, 0, ways)) return 0;
   if (conditions.count == 0) return wanted;
   std::uint32_t shadow = 0;
   for_each_bit(wanted, [&](std::uint32_t k, std::uint32_t bit) {
     if (conditions.hold(way(p, segments.ends[k]))) shadow |= bit;
   });
   return shadow;
+}
+
+}  // namespace
+
+std::uint32_t shadow_of(const Triangle& triangle, const Segments& segments, std::uint32_t wanted) {
+  return shadow_of(triangle, nullptr, segments, wanted);
 }
 
 namespace {
@@ -248,6 +270,7 @@ std::uint32_t shadow_of(const Facet& facet, std::span<const Triangle> triangles,
     wanted = shadow_of_rectangle(facet.box, segments, wanted);
     if (facet.rectangle != 0) return wanted;
   }
+  if (facet.tilted == 2) return shadow_of(triangles[0], &triangles[1].b, segments, wanted);
   for (const Triangle& triangle : triangles) {
     if (shadow == wanted) break;
     shadow |= shadow_of(triangle, segments, wanted & ~shadow);
