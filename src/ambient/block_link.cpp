@@ -9,13 +9,14 @@ namespace {
 using Step = LinkWalk::Step;
 
 // Relative errors, chosen on the paper's rooms: errors and costs of others differ by less than a fifth.
-constexpr double kOfTwo = 0.4, kOfFour = 0.14, kOfEight = 0.07, kOfSixteen = 0.05;  // of a fraction, where so many segments agree
+// Of a fraction, by so many segments.
+constexpr double kOfTwo = 0.37, kOfFour = 0.14, kOfEight = 0.07, kOfSixteen = 0.05;
 constexpr double kOfMixed = 0.7;        // of a link as a whole, where some are blocked
-constexpr double kOfDisc = 0.3;        // of the disc's form factor between patches
-constexpr double kOfQuarters = 2;       // of a single disc instead of one for each pair of quarters
+constexpr double kOfDisc = 0.3;         // of the discs' form factors between patches
+constexpr double kOfQuarters = 1.5;     // of a single disc instead of one for each pair of quarters
 constexpr double kOfDiscBlocks = 0.3;   // the same between blocks
 constexpr double kSeriesShare = 0.5;    // the part of REL that a series may use
-constexpr double kMostNearError = 0.1;
+constexpr double kMostNearError = 0.15;
 constexpr double kMostRough = 5e-3;     // error of v beyond which geometry is as exact as --tiers says
 constexpr double kDiscError = 0.2;      // of the disc's form factor, for the row's sum
 constexpr double kDiscVaries = 0.5;     // d^2 of blocks so near to each other
@@ -164,7 +165,8 @@ Step BlockJudge::decide(const RowSide& side, std::uint32_t j) {
 bool BlockJudge::measure(const RowSide& side, const Pair& pair) {
   LinkSeries series = pair.series;
   const double roots = surfaces_.root_area[node_] * surfaces_.root_area[pair.j];
-  if (series.kind != LinkKind::kSeries && !pair.near && !within(pair.whole, kOfQuarters) && placed_.kind != PlaceKind::kOdd) {
+  const bool rough = series.kind != LinkKind::kSeries && !pair.near && !within(pair.whole, kOfQuarters);
+  if (rough && placed_.kind != PlaceKind::kOdd) {
     const PlacedSide other = tools_.places.side(pair.j, place_);
     if (other.kind != PlaceKind::kOdd) series.value = rough_exchange(placed_, other);
   }
@@ -230,7 +232,8 @@ void BlockJudge::shoot(Shots& shots, std::uint32_t k, std::uint32_t l) {
 
 /// The visible fraction by one segment: a shadow, or nothing, is as far as the pair matters.
 void BlockJudge::look_once(std::uint32_t k, std::uint32_t j, std::uint32_t l) {
-  const bool blocked = tools_.sight.blocked_alone(surfaces_.samples(node_)[k], surfaces_.samples(j)[l], link_, intersector_);
+  const LatticePoint &p = surfaces_.samples(node_)[k], &q = surfaces_.samples(j)[l];
+  const bool blocked = tools_.sight.blocked_alone(p, q, link_, intersector_);
   found_.visible = fraction_of(blocked ? 0 : 1, 1);
 }
 
@@ -288,7 +291,7 @@ Step BlockJudge::look(const Pair& pair) {
   if (by_two && !crossing) return look_twice(pair, {0, turn}, {last, last ^ turn});
   Shots shots = shots_of(pair);
   std::uint32_t first = 0;
-  const auto ends = [&](std::uint32_t segment) { return Ends{segment & last, (segment ^ segment / points ^ turn) & last}; };
+  const auto ends = [&](std::uint32_t n) { return Ends{n & last, (n ^ n / points ^ turn) & last}; };
   while (first < points * points && !shots.faces(ends(first).i, ends(first).j)) ++first;
   if (first == points * points) {
     if (!sight.clear(own_box(false), box_of(j, false))) found_.visible = {0, 0};

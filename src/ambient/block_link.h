@@ -10,12 +10,13 @@
 // mean square over the mean illuminance, and REL is the most it may be (deviation D15).
 // With w = v sqrt(s_i^2 + s_j^2 + t_i^2 + t_j^2), the error of a link that is wholly wrong:
 //     w <= REL             a link, whatever it is like, with one segment
-//     e <= REL             a link if all first segments agree: 4 while 0.2 w <= REL, 8 while 0.1 w <= REL, 16 while
-//                          0.05 w <= REL, beyond that only if nothing stands between the two
-//     both, and mixed      a link with its visible fraction if 0.7 w <= REL
+//     e <= REL             a link if all segments agree: 2 while 0.37 w <= REL, 4 while 0.14 w <= REL, 8 while
+//                          0.07 w <= REL, 16 while 0.05 w <= REL, beyond that only if nothing stands between the two
+//     both, and mixed      a link with its visible fraction, by as many, if 0.7 w <= REL
 // Whatever isn't a link is split: the end over which the kernel varies more, or the larger. Patches are never split;
-// the dearest of them get the segments of `--segments`, all others 4 to 16. Too near for a series: blocks are split
-// until 0.3 w <= REL, patches take the near tier until 0.25 w <= REL; then a disc's form factor serves.
+// the dearest of them get the segments of `--segments`, all others 1 to 16, mixed or not: what few segments may make
+// wrong of a fraction is in the grade. Too near for a series: blocks are split until 0.3 w <= REL, patches take the
+// near tier until 0.3 w <= REL; then discs' form factors serve (ambient/rough_exchange.h), one at 1.5 w <= REL.
 //
 // The decision needs nothing but the two nodes and segments between them, so that rows can be found again.
 // Bytes: those of ambient/link_worth.h, link_series.h and sight.h.

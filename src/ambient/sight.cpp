@@ -89,7 +89,8 @@ Status Sight::take(Arena& arena, const Geometry& geometry, const Options& option
   const std::size_t meshes = geometry.first_cell.size();
   const bool taken = arena.take("kinds of blockers", facets, kinds_) && masks_.take(arena, facets) &&
                      arena.take("boxes of blockers, rounded", facets, lean_) &&
-                     arena.take("blockers of a link", facets, pair_) && arena.take("last blockers of meshes", meshes, last_);
+                     arena.take("blockers of a link", facets, pair_) &&
+                     arena.take("last blockers of meshes", meshes, last_);
   return taken ? Status{} : arena.refused();
 }
 
