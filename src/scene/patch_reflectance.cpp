@@ -83,7 +83,9 @@ void add_rectangle(const PatternMean& pattern, double s0, double s1, double t0, 
       }
     }
   }
-  for (std::uint32_t c = 0; c < 3; ++c) sum[c] += weights > 0 ? here[pattern.texture.channels == 1 ? 0 : c] / weights : 0;
+  for (std::uint32_t c = 0; c < 3 && weights > 0; ++c) {
+    sum[c] += here[pattern.texture.channels == 1 ? 0 : c] / weights;
+  }
 }
 
 /// Over a patch of a triangle: its parts' middles.

@@ -5,8 +5,8 @@
 // the mean of all of it: so the mean over a whole number of repeats is `diffuse`. It is taken over the level of detail
 // that has 8 to 16 texels across the patch, by the area that each texel covers, in map coordinates; of a patch of a
 // triangle at the middles of its 64 parts.
-// Approximate: the area of a quadrilateral that is no parallelogram isn't even over its map; levels beyond the first are
-// rounded to 8 bits.
+// Approximate: the area of a quadrilateral that is no parallelogram isn't even over its map; levels beyond the first
+// are rounded to 8 bits.
 // Bytes: 24 a textured mesh and 4 a channel and patch of it; none in scenes without textures.
 #pragma once
 

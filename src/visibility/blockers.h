@@ -16,6 +16,7 @@
 #include "base/arena.h"
 #include "visibility/geometry.h"
 #include "visibility/lattice_box.h"
+#include "visibility/median_boxes.h"
 #include "visibility/shaft.h"
 
 namespace shodo {
@@ -67,7 +68,7 @@ class Blockers {
         stack[depth++] = 2 * node + 1;
         continue;
       }
-      const Range range = range_of(node);
+      const ItemRange range = median_range(node, facets_.size());
       for (std::uint32_t k = range.first; k < range.end; ++k) {
         if (!shaft.misses(facets_[k].box)) visit(k);
       }
@@ -75,11 +76,7 @@ class Blockers {
   }
 
  private:
-  struct Range {
-    std::uint32_t first, end;
-  };
-  Range range_of(std::uint32_t node) const;
-  void split(const Range& range);
+  void split(const ItemRange& range);
 
   std::span<Facet> facets_;
   std::span<LatticeBox> nodes_;

@@ -20,7 +20,8 @@ namespace {
 std::string picture(std::uint32_t width, std::uint32_t height) {
   std::string text = "P6 " + std::to_string(width) + " " + std::to_string(height) + " 255\n";
   for (std::uint32_t k = 0; k < width * height * 3; ++k) {
-    text += static_cast<char>(static_cast<unsigned char>(90 + 8 * (k % 3) + (k * 2654435761u >> 16) % 100 * (k / 3 % width) / width));
+    const std::uint32_t noise = (k * 2654435761u >> 16) % 100;
+    text += static_cast<char>(static_cast<unsigned char>(90 + 8 * (k % 3) + noise * (k / 3 % width) / width));
   }
   return text;
 }
@@ -99,7 +100,8 @@ std::string room(bool textured) {
   const auto linear = [](double level) { return std::pow((level / 255 + 0.055) / 1.055, 2.4); };
   const double light = linear(188), dark = linear(99), mean = 0.5 * (light + dark);
   const auto number = [](double x) { return std::to_string(x); };
-  const std::string head = "shodo 1\nmaterial wall diffuse 0.6\nmaterial glossy diffuse 0.4 reflect 0.3\nmaterial tiles diffuse 0.4 texture t.pgm size 4 4\n"
+  const std::string head = "shodo 1\nmaterial wall diffuse 0.6\nmaterial glossy diffuse 0.4 reflect 0.3\n"
+                           "material tiles diffuse 0.4 texture t.pgm size 4 4\n"
                            "material light diffuse " + number(0.4 * light / mean) +
                            "\nmaterial dark diffuse " + number(0.4 * dark / mean) + "\n";
   // u runs along z, the texture's left half is z < 2.
@@ -115,7 +117,8 @@ std::vector<double> solved(bool textured, const Options& options) {
   std::vector<std::uint64_t> memory(std::size_t{1} << 20);
   TestFiles files{{"t.pgm", "P5 2 1 255\n\xbc\x63"}};
   Model* model = nullptr;
-  EXPECT_TRUE(load("top.scn", room(textured), reader_of(files), options, memory.data(), 8 * memory.size(), model).done());
+  const std::string text = room(textured);
+  EXPECT_TRUE(load("top.scn", text, reader_of(files), options, memory.data(), 8 * memory.size(), model).done());
   EXPECT_TRUE(solve(*model, {}).done());
   std::vector<double> lux;
   for (std::size_t k = 16; k < model->scene.sub_patch_count; ++k) {
@@ -137,7 +140,8 @@ TEST(PatchReflectance, ATexturedFloorLightsARoomAsTwoFloorsOfItsMeans) {
     const std::vector<double> one = solved(true, options), two = solved(false, options);
     ASSERT_EQ(one.size(), two.size());
     // Blocks and gathering cut the floors differently; else the two are one matrix, but for digits of the materials.
-    for (std::size_t k = 0; k < one.size(); ++k) EXPECT_NEAR(one[k], two[k], (which == 0 ? 1e-5 : 5e-3) * two[k]) << which;
+    const double tolerance = which == 0 ? 1e-5 : 5e-3;
+    for (std::size_t k = 0; k < one.size(); ++k) EXPECT_NEAR(one[k], two[k], tolerance * two[k]) << which;
   }
 }
 
