@@ -103,7 +103,7 @@ const char* plan_stage_name(PlanStage stage) {
 PartText plan_part_text(PlanPart part) {
   static constexpr PartText kTexts[] = {
       {"the model", "its structure, and up to 7 for alignment"},
-      {"scene", "40 materials + 40 objects + 56 meshes + 24 vertices + 248 lights + 96 cameras + 136 planes + names; textures: 4/3 of their texels"},
+      {"scene", "40 materials + 40 objects + 56 meshes + 24 vertices + 248 lights + 96 cameras + 136 planes + names; textures: 4/3 of their texels + 24 textured meshes + 4 c a patch of one"},
       {"triangles that block", "72 triangles + 8 polygons + 4 meshes + 20 lights"},
       {"triangles of the picture", "68 drawn triangles; spare: given up while there is light to find"},
       {"while placing", "16 vertices + 24 polygons + 12 insertions + a tree; then 72 n, the patches"},

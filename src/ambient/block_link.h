@@ -6,8 +6,8 @@
 //     e^2 = v^2 (d_i^2 (s_j^2 + t_i^2) + d_j^2 (s_i^2 + t_j^2)),
 // d_i the relative variation of the kernel over i (ambient/link_series.h), t_i how unevenly the parts of i send (an
 // uneven sender and a kernel that varies over it make an error together). All s and t are over the norm of all rows'
-// sums, E R of the whole scene, as far as it is displayed (ambient/link_worth.h): so a link's e is its part of the error of the solution, root
-// mean square over the mean illuminance, and REL is the most it may be (deviation D15).
+// sums, E R of the whole scene as far as it is displayed (ambient/link_worth.h): so a link's e is its part of the error
+// of the solution, root mean square over the mean illuminance, and REL is the most it may be (deviation D15).
 // With w = v sqrt(s_i^2 + s_j^2 + t_i^2 + t_j^2), the error of a link that is wholly wrong:
 //     w <= REL             a link, whatever it is like, with one segment
 //     e <= REL             a link if all segments agree: 2 while 0.37 w <= REL, 4 while 0.14 w <= REL, 8 while

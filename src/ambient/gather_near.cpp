@@ -136,7 +136,8 @@ double GatherGroup::part_factor(GatherPoint& point, const Part& part) const {
 void GatherGroup::gather_parts(const Look& look, bool clear) {
   const Surfaces& s = scene_.surfaces;
   const Mesh& mesh = s.mesh(look.node);
-  const Rgb& rho = s.scene->materials[mesh.material].diffuse;
+  double room[3];
+  const double* const rho = s.reflectance(look.node, room);
   const std::uint32_t mesh_index = s.mesh_index(look.node), local = s.local(look.node), channels = s.scene->channels;
   const std::uint32_t cell = cell_of_patch(mesh, local);
   const bool planar = mesh.kind != MeshKind::kGrid;
@@ -148,8 +149,8 @@ void GatherGroup::gather_parts(const Look& look, bool clear) {
     double sends[3] = {0, 0, 0};
     for (std::uint32_t c = 0; c < channels; ++c) {
       const std::size_t value = at * channels + c;
-      sends[c] = rho.c[c] * (static_cast<double>(scene_.direct.sub_patch_lx[value]) +
-                             static_cast<double>(scene_.ambient_lx[value]));
+      sends[c] = rho[c] * (static_cast<double>(scene_.direct.sub_patch_lx[value]) +
+                           static_cast<double>(scene_.ambient_lx[value]));
     }
     const double level = scene_.senders.level_of(sends);
     Part part{sub_patch_piece(*s.scene, mesh, k), {}, look.patch->normal, 0, 0, planar};

@@ -48,7 +48,8 @@ void GatherSenders::radiosity(std::uint32_t node, double* lx) const {
     for (std::uint32_t c = 0; c < channels_; ++c) lx[c] = static_cast<double>(mean[c]);
     return;
   }
-  const double* const rho = s.scene->materials[s.mesh(node).material].diffuse.c;
+  double room[3];
+  const double* const rho = s.reflectance(node, room);
   const std::size_t at = std::size_t{s.patch_at[node]} * channels_;
   for (std::uint32_t c = 0; c < channels_; ++c) {
     lx[c] = rho[c] * (direct_->patch_lx[at + c] + ambient_->patch_lx[at + c]);
@@ -66,7 +67,8 @@ void GatherSenders::note_patch(std::span<const float> ambient_lx, std::uint32_t 
   const Surfaces& s = *surfaces_;
   const Mesh& mesh = s.mesh(node);
   if (mesh.su * mesh.sv == 1) return;
-  const Rgb& rho = s.scene->materials[mesh.material].diffuse;
+  double room[3];
+  const double* const rho = s.reflectance(node, room);
   double sum = 0, squares = 0;
   std::uint32_t count = 0;
   SubPatchesOfPatch parts(mesh, s.local(node));
@@ -77,7 +79,7 @@ void GatherSenders::note_patch(std::span<const float> ambient_lx, std::uint32_t 
     for (std::uint32_t c = 0; c < channels_; ++c) {
       const std::size_t value = at * channels_ + c;
       sends[c] =
-          rho.c[c] * (static_cast<double>(direct_->sub_patch_lx[value]) + static_cast<double>(ambient_lx[value]));
+          rho[c] * (static_cast<double>(direct_->sub_patch_lx[value]) + static_cast<double>(ambient_lx[value]));
     }
     const double level = level_of(sends);
     sum += level;

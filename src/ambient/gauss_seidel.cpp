@@ -114,7 +114,7 @@ void sweep_node(Run& run, SweepState& state, std::uint32_t i, const MeshWalk& at
     gather<kFormat, kChannels>(run, row[g], i, sum);
   }
   if (matrix.surfaces.is_block(i)) return hand_down<kChannels>(matrix.surfaces, i, sum, run.solver.gathered);
-  update<kChannels>(run, i, matrix.coarse.group_at(i, at_i.place()), at_i.reflectance(), sum, state.result);
+  update<kChannels>(run, i, matrix.coarse.group_at(i, at_i.place()), at_i.reflectance(i), sum, state.result);
   // No column is in two generations, so their order doesn't matter: the last, if it isn't kept, is still at hand.
   for (std::uint32_t g = matrix.generations(); g-- > 0;) {
     if (!matrix.keeps(g, i) && g != in_scratch) row[g] = state.rows[g].row(matrix, state.uncounted, i);
@@ -192,7 +192,7 @@ void correct_and_send(Run& run, std::uint32_t c) {
     if (ambient < 0) ambient = 0;
     const double total = run.direct.patch_lx[patch] + ambient;
     run.solver.sent[std::size_t{i} * channels + c] =
-        sparsity.sends(i) ? at.reflectance()[c] * surfaces.root_area[i] * total : 0;
+        sparsity.sends(i) ? at.reflectance(i)[c] * surfaces.root_area[i] * total : 0;
   }
 }
 
@@ -229,7 +229,7 @@ void prepare(Run& run) {
     const double area = surfaces.root_area[i] * surfaces.root_area[i];
     solver.group_area[g] += area;
     for (std::uint32_t c = 0; c < channels; ++c) {
-      solver.group_reflectance[c * groups + g] += area * at.reflectance()[c];
+      solver.group_reflectance[c * groups + g] += area * at.reflectance(i)[c];
     }
   }
   for (std::uint32_t g = 0; g < groups; ++g) {

@@ -25,7 +25,8 @@ void LinkWorth::estimate(const Surfaces& s, const DirectLight& direct) {
   double area = 0, mean = 0, ambient[3] = {0, 0, 0};
   // White, on a white surface: what is brighter is displayed no brighter.
   const double shown_lx = kPi * s.scene->display.max_cd_m2;
-  const auto reflectance = [&](std::uint32_t node) { return s.scene->materials[s.mesh(node).material].diffuse.c; };
+  double room[3];
+  const auto reflectance = [&](std::uint32_t node) { return s.reflectance(node, room); };
   for (std::uint32_t node = 0; node < s.size(); ++node) {
     if (!s.is_block(node)) area += s.root_area[node] * s.root_area[node];
   }

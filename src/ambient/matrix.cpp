@@ -81,9 +81,11 @@ void spread_row(FirstPass& pass, std::uint32_t i, const MeshWalk& at_i, const st
   const bool panes = pass.panes.any();
   const double solid_i = panes ? solid_part(surfaces, at_i.place(), pass.panes.channel()) : 1;
   double solid_j = solid_i;
+  const double *rho_i = at_i.most_reflectance(), *rho_j = rho_i;
   for (RowReader<kFormat> entry(row, i, matrix.doubles()); entry.next();) {
     const std::uint32_t j = entry.column();
     if (at_j.go_to(j)) {
+      rho_j = at_j.most_reflectance();
       mesh_j = matrix.coarse.group_of_mesh(at_j.place());
       if (panes) solid_j = solid_part(surfaces, at_j.place(), pass.panes.channel());
     }
@@ -92,8 +94,8 @@ void spread_row(FirstPass& pass, std::uint32_t i, const MeshWalk& at_i, const st
     sums.all += panes ? solid_j * to_i : to_i;
     matrix.factor[j] += panes ? solid_i * to_j : to_j;
     for (std::uint32_t c = 0; c < channels; ++c) {
-      sums.reflected[c] += to_i * at_j.reflectance()[c];
-      pass.scratch.reflected[j * channels + c] += to_j * at_i.reflectance()[c];
+      sums.reflected[c] += to_i * rho_j[c];
+      pass.scratch.reflected[j * channels + c] += to_j * rho_i[c];
     }
     const LiveEnds ends_j = ends_of(matrix, j);
     // Corrections count exchange that goes both ways only, so that their matrix is symmetric.

@@ -32,6 +32,7 @@
 #include "ambient/surfaces.h"
 #include "base/arena.h"
 #include "light/direct.h"
+#include "scene/patch_reflectance.h"
 #include "shodo/callbacks.h"
 #include "shodo/options.h"
 #include "shodo/statistics.h"
@@ -113,19 +114,24 @@ class MeshWalk {
     if (position < end_) return false;
     while (position >= surfaces_->mesh_begin[place_ + 1]) ++place_;
     end_ = surfaces_->mesh_begin[place_ + 1];
+    reflectance_ = MeshReflectance(*surfaces_->scene, surfaces_->mesh_at[place_]);
     return true;
   }
   std::uint32_t place() const { return place_; }  // in mesh_at
-  /// Reflectance of the mesh, by channel.
-  const double* reflectance() const {
-    const Scene& scene = *surfaces_->scene;
-    return scene.materials[scene.meshes[surfaces_->mesh_at[place_]].material].diffuse.c;
+  /// Of a patch of the mesh, by channel; good until the next call.
+  const double* reflectance(std::uint32_t position) const {
+    const std::uint32_t first = surfaces_->scene->meshes[surfaces_->mesh_at[place_]].first_patch;
+    return reflectance_.of(surfaces_->patch_at[position] - first, room_);
   }
+  /// At least that of any of its patches.
+  const double* most_reflectance() const { return reflectance_.most(room_); }
 
  private:
   const Surfaces* surfaces_;
   std::uint32_t place_ = 0;
   std::uint32_t end_ = 0;
+  MeshReflectance reflectance_;
+  mutable double room_[3] = {0, 0, 0};
 };
 
 }  // namespace shodo

@@ -1,6 +1,7 @@
 #include "ambient/mirror_share.h"
 
 #include "light/piece_grid.h"
+#include "scene/patch_reflectance.h"
 #include "visibility/half_open.h"
 
 namespace shodo {
@@ -69,10 +70,11 @@ bool MirrorShare::points_of(std::uint32_t m, std::uint32_t local, PatchPoints& p
 /// rho E; false if it is nothing.
 bool MirrorShare::sent_by(std::uint32_t m, std::uint32_t local, double (&sent)[3]) const {
   const std::size_t first = (std::size_t{scene_.meshes[m].first_patch} + local) * scene_.channels;
-  const Rgb& rho = scene_.materials[scene_.meshes[m].material].diffuse;
+  double room[3];
+  const double* const rho = MeshReflectance(scene_, m).of(local, room);
   bool any = false;
   for (std::uint32_t c = 0; c < scene_.channels; ++c) {
-    sent[c] = rho.c[c] * (direct_.patch_lx[first + c] + ambient_lx_[first + c]);
+    sent[c] = rho[c] * (direct_.patch_lx[first + c] + ambient_lx_[first + c]);
     any = any || sent[c] > 0;
   }
   return any;

@@ -5,6 +5,7 @@
 #include "light/polygon_factor.h"
 #include "light/receiver_group.h"
 #include "scene/mesh.h"
+#include "scene/patch_reflectance.h"
 
 namespace shodo {
 
@@ -95,10 +96,11 @@ bool Gather::sender(std::uint32_t m, std::uint32_t local, Sender& s) const {
   const std::uint32_t index = s.mesh->first_patch + local;
   if (!(solved_.direct.visible_area[index] > 0)) return false;
   bool any = false;
+  double room[3];
+  const double* const rho = MeshReflectance(scene_, m).of(local, room);
   for (std::uint32_t c = 0; c < scene_.channels; ++c) {
     const std::size_t at = std::size_t{index} * scene_.channels + c;
-    s.sent[c] = scene_.materials[s.mesh->material].diffuse.c[c] *
-                (solved_.direct.patch_lx[at] + solved_.ambient.patch_lx[at]);
+    s.sent[c] = rho[c] * (solved_.direct.patch_lx[at] + solved_.ambient.patch_lx[at]);
     any = any || s.sent[c] > 0;
   }
   if (!any) return false;

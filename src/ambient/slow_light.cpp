@@ -53,7 +53,7 @@ void for_unknowns(const Search& search, Visit&& visit) {
   for (std::uint32_t i = 0; i < search.surfaces.size(); ++i) {
     walk.go_to(i);
     if (search.at.partner[i] < 0) continue;
-    const double rho = walk.reflectance()[search.run.channel];
+    const double rho = walk.reflectance(i)[search.run.channel];
     visit(Unknown{i, walk.place(), scale_of(search, i, rho), rho * search.surfaces.root_area[i]});
   }
 }
@@ -67,7 +67,7 @@ void start(const Search& search) {
     search.at.partner[i] = -1;
     walk.go_to(i);
     if (search.surfaces.is_block(i) || !(search.surfaces.root_area[i] > 0) || !sparsity.sends(i)) continue;
-    const double rho = walk.reflectance()[search.run.channel], ambient = search.ambient(i);
+    const double rho = walk.reflectance(i)[search.run.channel], ambient = search.ambient(i);
     const double total = search.run.direct.patch_lx[search.value(i)] + ambient;
     search.at.direction[i] = rho * search.surfaces.root_area[i] * total;
     if (rho > 0 && ambient > 0 && search.run.matrix.factor[i] > 0) search.at.partner[i] = i;
@@ -94,10 +94,10 @@ void settle_pairs(const Search& search) {
     if (j == i || search.partner(j) != i) {
       search.at.partner[i] = i;
     } else if (j > i) {
-      const Scene& scene = *search.surfaces.scene;
-      const double rho_j = scene.materials[search.surfaces.mesh(j).material].diffuse.c[search.run.channel];
+      double room[3];
+      const double rho_j = search.surfaces.reflectance(j, room)[search.run.channel];
       const double coupling = 2 * (search.at.partner[i] - j) * scale_of(search, j, rho_j) *
-                              scale_of(search, i, walk.reflectance()[search.run.channel]);
+                              scale_of(search, i, walk.reflectance(i)[search.run.channel]);
       const bool well = 1 - coupling * coupling > kLeastDeterminant;
       search.at.partner[i] = well ? j + coupling / 2 : i;
       search.at.partner[j] = well ? i + coupling / 2 : j;

@@ -8,15 +8,12 @@ bool judges(const Rules& rules) {
   return features::kRules && (rules.rule1 || rules.rule2 || rules.rule2_repeated);
 }
 
-const double* reflectance_of(const Surfaces& surfaces, std::uint32_t node) {
-  return surfaces.scene->materials[surfaces.mesh(node).material].diffuse.c;
-}
-
 /// The largest channel of rho E / pi, cd/m2; `ambient_lx` empty: of direct light alone.
 double largest_luminance(const Surfaces& surfaces, const DirectLight& direct, std::span<const double> ambient_lx,
                          std::uint32_t node) {
   const std::uint32_t channels = surfaces.scene->channels;
-  const double* rho = reflectance_of(surfaces, node);
+  double room[3];
+  const double* rho = surfaces.reflectance(node, room);
   double largest = 0;
   for (std::uint32_t c = 0; c < channels; ++c) {
     const std::size_t at = std::size_t{surfaces.patch_at[node]} * channels + c;
@@ -109,12 +106,12 @@ double Sparsity::loss_bound(const Surfaces& surfaces, const DirectLight& direct,
                             std::span<const double> ambient_lx) const {
   if (!drops_columns()) return 0;
   const std::uint32_t channels = surfaces.scene->channels;
-  double bound = 0;
+  double bound = 0, room[3];
   for (std::uint32_t c = 0; c < channels; ++c) {
     double most_reflecting = 0, lost = 0;
     for (std::uint32_t node = 0; node < surfaces.size(); ++node) {
       if (!takes_part(surfaces, node)) continue;
-      const double rho = reflectance_of(surfaces, node)[c];
+      const double rho = surfaces.reflectance(node, room)[c];
       if (rho > most_reflecting) most_reflecting = rho;
       const std::size_t at = std::size_t{surfaces.patch_at[node]} * channels + c;
       const double sent = rho * (direct.patch_lx[at] + ambient_lx[at]);

@@ -23,6 +23,7 @@
 #include "ambient/sample_set.h"
 #include "base/arena.h"
 #include "light/direct.h"
+#include "scene/patch_reflectance.h"
 #include "shodo/options.h"
 #include "visibility/geometry.h"
 #include "visibility/lattice_box.h"
@@ -91,6 +92,11 @@ struct Surfaces {
   /// Of the scene.
   std::uint32_t mesh_index(std::uint32_t position) const;
   const Mesh& mesh(std::uint32_t position) const { return scene->meshes[mesh_index(position)]; }
+  /// Of a patch, by channel; `room` may be used for it.
+  const double* reflectance(std::uint32_t position, double (&room)[3]) const {
+    if (scene->textured.empty()) return scene->materials[mesh(position).material].diffuse.c;
+    return MeshReflectance(*scene, mesh_index(position)).of(local(position), room);
+  }
   /// Of a patch, counted from its mesh's first.
   std::uint32_t local(std::uint32_t position) const { return patch_at[position] - mesh(position).first_patch; }
   Piece piece(std::uint32_t position) const {

@@ -70,7 +70,9 @@ struct Sums {
   bool mixed() const { return least < most; }
 };
 
-/// Adds the weights of all pairs of samples, and of those with a free segment; `alike`: all weights the same.
+/// Adds the weights of all pairs of samples, and of those with a free segment, with panes each by what they let
+/// through; `alike`: all weights the same.
+template <bool kPanes>
 void weigh(const Surfaces& surfaces, const PatchEnds& i, const PatchEnds& j, bool alike, const Tester& tester,
            Sums& sums) {
   const Link link = link_between(surfaces, i.position, j.position);
@@ -79,25 +81,15 @@ void weigh(const Surfaces& surfaces, const PatchEnds& i, const PatchEnds& j, boo
       const double weight = alike ? 1 : kernel(surfaces, i, k, j, l);
       if (!(weight > 0)) continue;
       sums.all += weight;
-      if (!tester.blocked(i.at[k], j.at[l], link)) sums.free += weight;
-    }
-  }
-}
-
-/// As weigh(), each free segment by what panes let through.
-void weigh_through_panes(const Surfaces& surfaces, const PatchEnds& i, const PatchEnds& j, bool alike,
-                         const Tester& tester, Sums& sums) {
-  const Link link = link_between(surfaces, i.position, j.position);
-  for (std::size_t k = 0; k < i.set.size(); ++k) {
-    for (std::size_t l = 0; l < j.set.size(); ++l) {
-      const double weight = alike ? 1 : kernel(surfaces, i, k, j, l);
-      if (!(weight > 0)) continue;
-      sums.all += weight;
-      const double part =
-          tester.blocked(i.at[k], j.at[l], link) ? 0 : tester.intersector.panes().pass(i.at[k], j.at[l]);
-      sums.free += weight * part;
-      if (part < sums.least) sums.least = part;
-      if (part > sums.most) sums.most = part;
+      const bool blocked = tester.blocked(i.at[k], j.at[l], link);
+      if constexpr (kPanes) {
+        const double part = blocked ? 0 : tester.intersector.panes().pass(i.at[k], j.at[l]);
+        sums.free += weight * part;
+        if (part < sums.least) sums.least = part;
+        if (part > sums.most) sums.most = part;
+      } else if (!blocked) {
+        sums.free += weight;
+      }
     }
   }
 }
@@ -163,20 +155,27 @@ double segments_between(const PairEnds& ends) {
                                             : ends.few_i.set.size() * ends.many_j.set.size() * 2);
 }
 
-VisibleFraction weighted_fraction(const Surfaces& surfaces, const PairEnds& ends, const Tester& tester) {
+/// Of both sets; if no kernel is positive, all the same. False: there are no pairs.
+template <bool kPanes>
+bool weigh_both(const Surfaces& surfaces, const PairEnds& ends, const Tester& tester, Sums& sums) {
   for (const bool alike : {false, true}) {
-    Sums sums;
+    sums = {};
     if (ends.one_set()) {
-      weigh(surfaces, ends.few_i, ends.few_j, alike, tester, sums);
+      weigh<kPanes>(surfaces, ends.few_i, ends.few_j, alike, tester, sums);
     } else {
-      weigh(surfaces, ends.few_i, ends.many_j, alike, tester, sums);
-      weigh(surfaces, ends.many_i, ends.few_j, alike, tester, sums);
+      weigh<kPanes>(surfaces, ends.few_i, ends.many_j, alike, tester, sums);
+      weigh<kPanes>(surfaces, ends.many_i, ends.few_j, alike, tester, sums);
     }
-    if (!(sums.all > 0)) continue;
-    const double value = sums.free / sums.all;
-    return {value, value * (1 - value) / segments_between(ends)};
+    if (sums.all > 0) return true;
   }
-  return {0, 0};
+  return false;
+}
+
+VisibleFraction weighted_fraction(const Surfaces& surfaces, const PairEnds& ends, const Tester& tester) {
+  Sums sums;
+  if (!weigh_both<false>(surfaces, ends, tester, sums)) return {0, 0};
+  const double value = sums.free / sums.all;
+  return {value, value * (1 - value) / segments_between(ends)};
 }
 
 LatticeBox box_of(const PatchEnds& ends) {
@@ -199,21 +198,12 @@ bool panes_between(const PairEnds& ends, const Intersector& intersector) {
 /// The weighted mean of what arrives; `mixed` if segments differ.
 VisibleFraction fraction_through_panes(const Surfaces& surfaces, const PairEnds& ends, const Tester& tester,
                                        bool& mixed) {
-  for (const bool alike : {false, true}) {
-    Sums sums;
-    if (ends.one_set()) {
-      weigh_through_panes(surfaces, ends.few_i, ends.few_j, alike, tester, sums);
-    } else {
-      weigh_through_panes(surfaces, ends.few_i, ends.many_j, alike, tester, sums);
-      weigh_through_panes(surfaces, ends.many_i, ends.few_j, alike, tester, sums);
-    }
-    if (!(sums.all > 0)) continue;
-    mixed = sums.mixed();
-    const double value = sums.mixed() ? sums.free / sums.all : sums.most;
-    return {value, mixed ? value * (1 - value) / segments_between(ends) : 0};
-  }
+  Sums sums;
   mixed = false;
-  return {0, 0};
+  if (!weigh_both<true>(surfaces, ends, tester, sums)) return {0, 0};
+  mixed = sums.mixed();
+  const double value = mixed ? sums.free / sums.all : sums.most;
+  return {value, mixed ? value * (1 - value) / segments_between(ends) : 0};
 }
 
 }  // namespace

@@ -251,7 +251,9 @@ void LightPaths::add_textured(const DrawnTriangle& drawn, const RayHit& hit, con
   place.step = texture_step(drawn, hit, path, shade);
   shade.set_texture_place(place);
   shade.show_piece(1, 0, place, place, 65535, [&](std::int32_t, const std::uint32_t (&steps)[3]) {
-    for (std::uint32_t k = 0; k < scene_->channels; ++k) sum[k] += std::uint64_t{path.part[k]} * (steps[k] << kFineBits);
+    for (std::uint32_t k = 0; k < scene_->channels; ++k) {
+      sum[k] += std::uint64_t{path.part[k]} * (steps[k] << kFineBits);
+    }
   });
   if (noted == nullptr) return;
   noted->u = place.u;

@@ -8,16 +8,8 @@ namespace shodo {
 
 namespace {
 
-constexpr std::uint64_t kLeaf = 4;
 // Of Slabs, where 2^32 is the whole direction: inverses are off by at most 1, times 2^21 steps.
 constexpr std::int64_t kSlack = std::int64_t{1} << 22;
-
-std::uint64_t count_nodes(std::uint64_t triangles) {
-  if (triangles == 0) return 0;
-  std::uint64_t leaves = 1;
-  while (triangles > kLeaf * leaves) leaves *= 2;
-  return 2 * leaves - 1;
-}
 
 LatticeBox box_of(const DrawnTriangle& triangle) {
   LatticeBox box;
@@ -45,40 +37,22 @@ std::int64_t limit_of(const RayHit& hit) {
 }  // namespace
 
 std::uint64_t RayTree::bytes(std::uint64_t drawn) {
-  return (4 * drawn + 7) / 8 * 8 + sizeof(LatticeBox) * count_nodes(drawn);
+  return (4 * drawn + 7) / 8 * 8 + sizeof(LatticeBox) * median_nodes(drawn);
 }
 
 bool RayTree::build(const Scene& scene, std::span<const DrawnTriangle> drawn, Arena& arena) {
   scene_ = &scene;
   drawn_ = drawn;
   if (!arena.take("triangles in the rays' order", drawn.size(), order_)) return false;
-  if (!arena.take("boxes for rays", static_cast<std::size_t>(count_nodes(drawn.size())), nodes_)) return false;
+  if (!arena.take("boxes for rays", median_nodes(drawn.size()), nodes_)) return false;
   for (std::uint32_t k = 0; k < order_.size(); ++k) order_[k] = k;
-  const std::uint32_t nodes = static_cast<std::uint32_t>(nodes_.size());
-  for (std::uint32_t node = 0; 2 * node + 1 < nodes; ++node) split(range_of(node), range_of(2 * node + 2).first);
-  for (std::uint32_t node = nodes; node-- > 0;) {
-    LatticeBox box;
-    if (2 * node + 1 < nodes) {
-      box.include(nodes_[2 * node + 1]);
-      box.include(nodes_[2 * node + 2]);
-    } else {
-      const Range range = range_of(node);
-      for (std::uint32_t k = range.first; k < range.end; ++k) box.include(box_of(drawn_[order_[k]]));
-    }
-    nodes_[node] = box;
-  }
+  fill_median_boxes(nodes_, order_.size(), [this](const ItemRange& range, std::uint32_t cut) { split(range, cut); },
+                    [this](std::uint32_t k) { return box_of(drawn_[order_[k]]); });
   return true;
 }
 
-RayTree::Range RayTree::range_of(std::uint32_t node) const {
-  const std::uint32_t level = static_cast<std::uint32_t>(std::bit_width(node + 1)) - 1;
-  const std::uint64_t place = node + 1 - (std::uint32_t{1} << level);
-  const std::uint64_t count = order_.size();
-  return {static_cast<std::uint32_t>(count * place >> level), static_cast<std::uint32_t>(count * (place + 1) >> level)};
-}
-
 /// `cut`: the first of the second half.
-void RayTree::split(const Range& range, std::uint32_t cut) {
+void RayTree::split(const ItemRange& range, std::uint32_t cut) {
   const auto middle = [this](std::uint32_t t, int axis) {
     const LatticeBox box = box_of(drawn_[t]);
     return box.low[axis] + box.high[axis];
@@ -187,7 +161,7 @@ RayHit RayTree::nearest_after(const Ray& ray, const RayHit& last, std::uint32_t 
       if (meets_near) stack[depth++] = near;
       continue;
     }
-    const Range range = range_of(at.node);
+    const ItemRange range = median_range(at.node, order_.size());
     for (std::uint32_t k = range.first; k < range.end; ++k) {
       if (order_[k] != hint) offer(ray, last, order_[k], best, limit);
     }

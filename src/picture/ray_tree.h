@@ -1,7 +1,7 @@
 // The drawn triangles in a tree of boxes, for rays (paper 2.4; only for scenes with mirrors, glass or highlights).
 //
-// Median cuts along the axis that leaves both halves' boxes the least surface (MacDonald and Booth 1990); children of node k are 2 k + 1 and 2 k + 2, leaves hold up to four
-// triangles. A ray's nearest hit is sought near boxes first; a box that begins beyond the nearest hit so far is left
+// Median cuts (visibility/median_boxes.h) along the axis that leaves both halves' boxes the least surface (MacDonald and
+// Booth 1990). A ray's nearest hit is sought near boxes first; a box that begins beyond the nearest hit so far is left
 // out. Boxes are tested with 2^32 / |d| rounded down, and as much to spare as that can be off, so none that is met is
 // left out.
 // Exact: the answers. Bytes: 4 a drawn triangle, 24 a node (about one for each two triangles).
@@ -14,6 +14,7 @@
 #include "picture/ray.h"
 #include "scene/scene.h"
 #include "visibility/lattice_box.h"
+#include "visibility/median_boxes.h"
 
 namespace shodo {
 
@@ -41,9 +42,6 @@ class RayTree {
   bool invisible(const DrawnTriangle& triangle, bool front) const;
 
  private:
-  struct Range {
-    std::uint32_t first, end;
-  };
   struct Slabs {  // 2^32 / |d| an axis
     std::uint32_t inverse[3];
     std::int32_t origin[3];
@@ -52,8 +50,7 @@ class RayTree {
   static Slabs slabs_of(const Ray& ray);
   static bool meets(const LatticeBox& box, const Slabs& slabs, std::int64_t limit, std::int64_t& enters);
   void offer(const Ray& ray, const RayHit& last, std::uint32_t triangle, RayHit& best, std::int64_t& limit) const;
-  Range range_of(std::uint32_t node) const;
-  void split(const Range& range, std::uint32_t cut);
+  void split(const ItemRange& range, std::uint32_t cut);
 
   const Scene* scene_ = nullptr;
   std::span<const DrawnTriangle> drawn_;
@@ -74,7 +71,7 @@ bool RayTree::visit_in(Hull& hull, Visit visit) const {
       stack[depth++] = 2 * node + 1;
       continue;
     }
-    const Range range = range_of(node);
+    const ItemRange range = median_range(node, order_.size());
     for (std::uint32_t k = range.first; k < range.end; ++k) {
       if (!hull.misses(drawn_[order_[k]]) && !visit(order_[k])) return false;
     }
@@ -98,7 +95,7 @@ void RayTree::visit_blockers(const Ray& ray, bool ends, Visit visit) const {
       stack[depth++] = 2 * node + 1;
       continue;
     }
-    const Range range = range_of(node);
+    const ItemRange range = median_range(node, order_.size());
     for (std::uint32_t k = range.first; k < range.end; ++k) {
       RayHit hit;
       const std::uint32_t t = order_[k];

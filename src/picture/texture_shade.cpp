@@ -122,7 +122,9 @@ void TextureShade::look_up(std::uint32_t s, std::uint32_t t, std::uint32_t step,
   if (weight == 0) return;
   std::uint32_t coarse[3];
   bilinear(level + 1, s, t, coarse);
-  for (std::uint32_t c = 0; c < texture_.channels; ++c) value[c] = (value[c] * (256 - weight) + coarse[c] * weight) >> 8;
+  for (std::uint32_t c = 0; c < texture_.channels; ++c) {
+    value[c] = (value[c] * (256 - weight) + coarse[c] * weight) >> 8;
+  }
 }
 
 TextureShade::Axis TextureShade::axis_at(std::uint32_t at, std::uint32_t count) const {

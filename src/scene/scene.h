@@ -131,6 +131,14 @@ struct Texture {
   std::span<const std::uint8_t> texels;  // 8-bit sRGB, all levels of detail
 };
 
+/// A mesh whose material has a texture: its patches' reflectances.
+struct TexturedMesh {
+  std::uint32_t mesh = 0;
+  std::uint32_t first = 0;         // of Scene::patch_reflectance
+  float most[3] = {0, 0, 0};       // the largest of any patch, by channel
+  std::uint32_t unused = 0;
+};
+
 struct Display {
   double min_cd_m2 = 1;
   double max_cd_m2 = 250;
@@ -154,6 +162,8 @@ struct Scene {
   std::span<Background> background;  // one or none
   std::span<Texture> textures;              // of materials, in their order
   std::span<std::uint16_t> texture_linear;  // of 256 levels of sRGB, 65535 is 1; empty without textures
+  std::span<const TexturedMesh> textured;       // ascending (scene/patch_reflectance.h); empty without textures
+  std::span<const float> patch_reflectance;     // of their patches, by channel
   std::uint32_t patch_count = 0;
   std::uint32_t sub_patch_count = 0;
   std::uint32_t plane_sub_patch_count = 0;

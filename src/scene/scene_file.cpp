@@ -5,6 +5,7 @@
 #include "scene/scene_file.h"
 
 #include "scene/finish.h"
+#include "scene/patch_reflectance.h"
 #include "scene/scene_store.h"
 #include "scene/statements.h"
 #include "scene/texture.h"
@@ -35,7 +36,10 @@ bool finish(Scene& scene, const Options& options, const Reader& reader, Arena& a
   centre_scene(scene);
   place_lights(scene);
   decide_channels(scene);
-  return check_cameras(scene, status, wanted) && decide_counts(scene, options, status, wanted);
+  if (!check_cameras(scene, status, wanted) || !decide_counts(scene, options, status, wanted)) return false;
+  if (find_patch_reflectances(scene, arena)) return true;
+  status = arena.refused();
+  return false;
 }
 
 bool load(Words& words, const Options& options, const Reader& reader, Arena& arena, Scene& scene, Status& status) {

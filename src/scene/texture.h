@@ -2,7 +2,7 @@
 //
 // A file is a picture in sRGB. What it shows at a point, over its mean, multiplies the reflectance there, channel by
 // channel, in linear light: so the mean reflectance of a textured surface is `diffuse`, and interreflection, which
-// knows patches only, needs nothing else. No point may reflect more than everything: such a texture is refused.
+// knows patches only, has the mean over each patch (patch_reflectance.h). No point may reflect more than everything: such a texture is refused.
 //
 // The library reads PPM and PGM (P6 and P5, 255 levels); the caller's Reader may make them of other files. Each level
 // of detail halves the one before, rounded down, by exact area means of linear values, down to 1 x 1; levels are kept

@@ -1,23 +1,12 @@
 #include "visibility/blockers.h"
 
-#include <bit>
-
 #include "visibility/sort.h"
 
 namespace shodo {
 
 namespace {
 
-constexpr std::uint32_t kLeafFacets = 4;
-
 std::uint32_t facets_of(const PolygonTriangles& polygon) { return (polygon.count + 1) / 2; }
-
-std::uint32_t count_nodes(std::uint32_t facets) {
-  if (facets == 0) return 0;
-  std::uint32_t leaves = 1;
-  while (facets > kLeafFacets * leaves) leaves *= 2;
-  return 2 * leaves - 1;
-}
 
 bool is_parallelogram(std::span<const Triangle> triangles) {
   if (triangles.size() != 2) return false;
@@ -101,7 +90,7 @@ std::uint32_t Blockers::add_facets(const Geometry& geometry, const PolygonTriang
 bool Blockers::build(const Geometry& geometry, Arena& arena, Facets facets) {
   const std::uint32_t most = facet_count(geometry);
   if (!arena.take("blockers", most, facets_)) return false;
-  if (!arena.take("blockers' boxes", count_nodes(most), nodes_)) return false;
+  if (!arena.take("blockers' boxes", median_nodes(most), nodes_)) return false;
   std::uint32_t count = 0;
   for (const std::span<PolygonTriangles> polygons : {geometry.cells, geometry.light_triangles}) {
     for (const PolygonTriangles& polygon : polygons) {
@@ -109,37 +98,19 @@ bool Blockers::build(const Geometry& geometry, Arena& arena, Facets facets) {
     }
   }
   facets_ = facets_.first(count);
-  nodes_ = nodes_.first(count_nodes(count));
-  const std::uint32_t nodes = static_cast<std::uint32_t>(nodes_.size());
-  for (std::uint32_t node = 0; 2 * node + 1 < nodes; ++node) split(range_of(node));
-  for (std::uint32_t node = nodes; node-- > 0;) {
-    LatticeBox box;
-    if (2 * node + 1 < nodes) {
-      box.include(nodes_[2 * node + 1]);
-      box.include(nodes_[2 * node + 2]);
-    } else {
-      const Range range = range_of(node);
-      for (std::uint32_t k = range.first; k < range.end; ++k) box.include(facets_[k].box);
-    }
-    nodes_[node] = box;
-  }
+  nodes_ = nodes_.first(median_nodes(count));
+  fill_median_boxes(nodes_, facets_.size(), [this](const ItemRange& range, std::uint32_t) { split(range); },
+                    [this](std::uint32_t k) { return facets_[k].box; });
   return true;
 }
 
 std::uint64_t Blockers::bytes(const Geometry& geometry) {
   const std::uint64_t facets = facet_count(geometry);
-  return sizeof(Facet) * facets + sizeof(LatticeBox) * count_nodes(static_cast<std::uint32_t>(facets));
-}
-
-Blockers::Range Blockers::range_of(std::uint32_t node) const {
-  const std::uint32_t level = static_cast<std::uint32_t>(std::bit_width(node + 1)) - 1;
-  const std::uint64_t place = node + 1 - (std::uint32_t{1} << level);
-  const std::uint64_t count = facets_.size();
-  return {static_cast<std::uint32_t>(count * place >> level), static_cast<std::uint32_t>(count * (place + 1) >> level)};
+  return sizeof(Facet) * facets + sizeof(LatticeBox) * median_nodes(facets);
 }
 
 /// Sorts a node's facets along the axis on which their centres are widest apart.
-void Blockers::split(const Range& range) {
+void Blockers::split(const ItemRange& range) {
   const std::span<Facet> facets = facets_.subspan(range.first, range.end - range.first);
   LatticeBox centres;  // times 2
   for (const Facet& facet : facets) {

@@ -17,6 +17,7 @@
 #include "base/arena.h"
 #include "visibility/geometry.h"
 #include "visibility/lattice_box.h"
+#include "visibility/median_boxes.h"
 #include "visibility/shaft.h"
 
 namespace shodo {
@@ -71,7 +72,7 @@ class Blockers {
         stack[depth++] = 2 * node + 1;
         continue;
       }
-      const Range range = range_of(node);
+      const ItemRange range = median_range(node, facets_.size());
       for (std::uint32_t k = range.first; k < range.end; ++k) {
         if (!shaft.misses(facets_[k].box)) visit(k);
       }
@@ -79,13 +80,9 @@ class Blockers {
   }
 
  private:
-  struct Range {
-    std::uint32_t first, end;
-  };
-  Range range_of(std::uint32_t node) const;
   std::uint32_t add_facets(const Geometry& geometry, const PolygonTriangles& polygon, Facets facets,
                            std::uint32_t next);
-  void split(const Range& range);
+  void split(const ItemRange& range);
 
   std::span<Facet> facets_;
   std::span<LatticeBox> nodes_;

@@ -259,6 +259,31 @@ TEST(PictureOptics, ATexturedLampShinesInMirrors) {
                  "light l polyhedron object lamp luminance 60\n", small(), {{"w.ppm", waves()}});
 }
 
+/// Rods of 2 to 8 mm in all directions, less than a sample wide: samples between two that see none of them may.
+TEST(PictureOptics, NothingThinIsMissedBetweenTracedSamples) {
+  std::string rods = "object rods\n";
+  std::uint32_t seed = 1;
+  const auto random = [&](double low, double high) {
+    seed = seed * 1664525u + 1013904223u;
+    return low + (high - low) * (seed >> 8) / 16777216.0;
+  };
+  const auto point = [](double x, double y, double z) {
+    return " " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z);
+  };
+  for (int k = 0; k < 40; ++k) {
+    const double x = random(0.5, 3.5), y = random(0.3, 2.7), z = random(1.5, 3.0), w = random(0.002, 0.008);
+    const double dx = random(-0.5, 0.5), dy = random(-0.5, 0.5), dz = random(-0.5, 0.5);
+    // A strip, and one behind it that is seen from the other side.
+    rods += "quad grey" + point(x, y, z) + point(x + w, y, z) + point(x + w + dx, y + dy, z + dz) +
+            point(x + dx, y + dy, z + dz) + " patches 1 1 sub 1 1\n";
+    const double back = z - 0.01;
+    rods += "quad grey" + point(x + w, y, back) + point(x, y, back) + point(x + dx, y + dy, back + dz) +
+            point(x + w + dx, y + dy, back + dz) + " patches 1 1 sub 1 1\n";
+  }
+  expect_as_twin(kRoom + rods + "object m\nquad mirror 0 0 0  4 0 0.1  4 3 0.1  0 3 0 patches 1 1\n"
+                 "quad glass 0.2 0.2 1.2  2.2 0.2 1.2  2.2 2.2 1.2  0.2 2.2 1.2\n");
+}
+
 TEST(PictureOptics, BrightnessRollsOffAfterAllIsAdded) {
   std::string text = kRoom;
   text.replace(text.find("display 1 250"), 13, "display 4 60 roll");

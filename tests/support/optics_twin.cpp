@@ -171,7 +171,8 @@ Colour OpticsTwin::highlight(const Optics& optics, const Point& at, const Point&
     const double lobe = std::pow(std::max(0.0, dot(l, r)), n), cosine = dot(l, normal);
     if (lobe < 1e-7 || cosine <= 0) return;
     const Colour left = passes(from, to, end);
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += strength * lobe * cosine * lx_before_cosine * light.colour.c[c] * left[c];
+    const double lx = lx_before_cosine * cosine;
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += strength * lobe * lx * light.colour.c[c] * left[c];
   };
   const auto add_quad = [&](const Light& light, const std::array<Point, 4>& corner, int points) {
     const Point across = cross(sub(corner[1], corner[0]), sub(corner[2], corner[0]));
