@@ -136,6 +136,35 @@ TEST(Rules, RuleTwoLosesHalfOfACubeAndItsBoundSaysSo) {
   for (std::size_t i = 0; i < none.patches.size(); ++i) EXPECT_NEAR(again.total(i), none.total(i), 1e-6 * 100);
 }
 
+TEST(Rules, TheLastRoundPutsEveryColumnBack) {
+  // One more patch is bright in each round, as along a row of rooms: what is still out before the last round comes then.
+  Options options;
+  options.rules.rule2_repeated = true;
+  AmbientScene scene(grey(0.7) + "display 1 250\n" + box_walls(1, 1, 1, 3, 3, 3, "white"), options);
+  scene.light([](const Vec3&, std::uint32_t) { return 0.0; });
+  Matrix matrix(scene.loaded.arena);
+  Surfaces& surfaces = matrix.surfaces;
+  ASSERT_TRUE(gather_surfaces(scene.loaded.scene, scene.geometry, scene.patches, scene.direct, options,
+                              scene.loaded.arena, surfaces).done());
+  Sparsity& sparsity = matrix.sparsity;
+  ASSERT_TRUE(sparsity.take(scene.loaded.arena, surfaces, scene.direct, options.rules).done());
+  std::vector<double> ambient(scene.patches.size(), 0.0);
+  const auto sending = [&] {
+    std::size_t count = 0;
+    for (std::uint32_t node = 0; node < surfaces.size(); ++node) count += sparsity.sends(node) ? 1 : 0;
+    return count;
+  };
+  EXPECT_EQ(sending(), 0u);
+  EXPECT_FALSE(sparsity.restore(surfaces, scene.direct, ambient)) << "nothing is bright";
+  for (std::size_t round = 1; round < kGenerations; ++round) {
+    ambient[5 * round] = 100;
+    ASSERT_TRUE(sparsity.restore(surfaces, scene.direct, ambient)) << round;
+    EXPECT_EQ(sparsity.now(), round);
+    EXPECT_EQ(sending(), round + 1 < kGenerations ? round : ambient.size());
+  }
+  EXPECT_FALSE(sparsity.restore(surfaces, scene.direct, ambient)) << "all are there";
+}
+
 TEST(Rules, RuleTwosBoundIsNeverBelowItsLoss) {
   for (const double least : {0.1, 1.0, 3.0, 10.0}) {
     for (const double rho : {0.2, 0.6, 0.9}) {
