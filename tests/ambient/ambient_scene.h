@@ -115,6 +115,7 @@ void expect_same_bits_in_any_memory(const std::string& text, const Options& opti
     tight.light(e0);
     ASSERT_TRUE(tight.solve_in(arena, {}).done()) << more;
     EXPECT_GT(tight.statistics.rows_recomputed, 0u);
+    EXPECT_EQ(tight.statistics.rows_recomputed + tight.statistics.rows_kept, kept.statistics.rows_kept);
     EXPECT_EQ(tight.statistics.segments_ambient, kept.statistics.segments_ambient);
     EXPECT_EQ(tight.statistics.sweeps, kept.statistics.sweeps);
     EXPECT_TRUE(std::ranges::equal(tight.ambient.patch_lx, kept.ambient.patch_lx));

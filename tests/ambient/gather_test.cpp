@@ -9,15 +9,31 @@ namespace {
 
 /// A solved scene, its patches' light spread evenly over their sub-patches, and what those gather.
 struct Gathered {
-  Gathered(const std::string& text, const Options& options, const std::function<double(const Vec3&, std::uint32_t)>& e0)
+  using TakesNoPart = std::function<bool(const AmbientScene&, std::size_t patch)>;
+
+  Gathered(const std::string& text, const Options& options, const std::function<double(const Vec3&, std::uint32_t)>& e0,
+           const TakesNoPart& hidden_patch = {})
       : scene(text, options) {
     scene.light(e0);
+    for (std::size_t k = 0; hidden_patch && k < scene.patches.size(); ++k) {
+      if (hidden_patch(scene, k)) scene.visible[k] = 0;
+    }
     EXPECT_TRUE(scene.solve().done());
     const Scene& s = scene.loaded.scene;
     direct.resize(s.sub_patch_count * s.channels);
     lx.resize(direct.size());
     hidden.resize(s.sub_patch_count);
     factors.resize(s.sub_patch_count);
+    start();
+    scene.direct.sub_patch_lx = direct;
+    scene.direct.hidden = hidden;
+    scene.direct.sub_patch_factor = factors;
+    memory.resize(1 << 21);
+  }
+
+  /// Every sub-patch has what its patch has.
+  void start() {
+    const Scene& s = scene.loaded.scene;
     for (const Mesh& mesh : s.meshes) {
       for (std::uint32_t k = 0; k < mesh.sub_patch_count(); ++k) {
         const std::size_t patch = mesh.first_patch + patch_of_sub_patch(mesh, k);
@@ -28,10 +44,6 @@ struct Gathered {
         }
       }
     }
-    scene.direct.sub_patch_lx = direct;
-    scene.direct.hidden = hidden;
-    scene.direct.sub_patch_factor = factors;
-    memory.resize(1 << 21);
   }
 
   Status gather(FlagMode flags = FlagMode::kAuto) {
@@ -80,6 +92,38 @@ TEST(Gather, FurnaceGivesE0RhoOverOneMinusRhoOnEverySubPatch) {
     const double expected = 100 * rho / (1 - rho);
     for (const float lx : box.lx) EXPECT_NEAR(lx, expected, 1e-5 * expected);
   }
+}
+
+/// More blockers than lists have room for: those between a region and an object, and those of a group of sub-patches.
+TEST(Gather, ListsThatAreTooLongChangeNoBit) {
+  // A cloud of 48 x 48 small sheets, which neither send nor receive, in a room of six objects.
+  std::string cloud = "object cloud\n";
+  constexpr int kSide = 48;
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const double at = 0.2 + 1.6 * x / kSide, beside = 0.2 + 1.6 * y / kSide, high = 0.9 + 0.004 * ((7 * x + 3 * y) % 17);
+      char line[200];
+      std::snprintf(line, sizeof line, "quad white %g %g %g %g %g %g %g %g %g %g %g %g patches 1 1 sub 1 1\n", at,
+                    beside, high, at + 0.02, beside, high, at + 0.02, beside + 0.02, high, at, beside + 0.02, high);
+      cloud += line;
+    }
+  }
+  Options options = precise();
+  options.gather_error = 1e-2;
+  const auto lit = [](const Vec3& p, std::uint32_t m) { return m == 0 ? 100 + 50 * p.x : 10.0; };
+  const std::string room = grey(0.5) + with_sub_patches(box_walls(2, 2, 2, 4, 4, 4, "white"), "2 2");
+  Gathered full(room + cloud, options, lit, [](const AmbientScene& scene, std::size_t patch) {
+    return scene.loaded.scene.meshes[scene.patches[patch].mesh].patch_count() == 1;
+  });
+  ASSERT_TRUE(full.gather().done());
+  const std::vector<float> with_lists = full.lx;
+  full.start();
+  ASSERT_TRUE(full.gather(FlagMode::kOff).done());
+  EXPECT_EQ(full.lx, with_lists);
+  // The cloud is there: less light arrives than without it.
+  Gathered empty(room, options, lit);
+  ASSERT_TRUE(empty.gather().done());
+  EXPECT_LT(with_lists[5], 0.99 * empty.lx[5]);
 }
 
 std::string patchy(const std::string& material, std::initializer_list<double> c, int u, int v) {

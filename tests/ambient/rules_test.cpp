@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ambient/ambient_memory.h"
+#include "support/solved_scene.h"
 #include "tests/ambient/ambient_scene.h"
 
 namespace shodo {
@@ -134,6 +135,35 @@ TEST(Rules, RuleTwoLosesHalfOfACubeAndItsBoundSaysSo) {
   EXPECT_EQ(again.statistics.rule2_bound_lx, 0);
   EXPECT_EQ(again.statistics.segments_ambient, none.statistics.segments_ambient);
   for (std::size_t i = 0; i < none.patches.size(); ++i) EXPECT_NEAR(again.total(i), none.total(i), 1e-6 * 100);
+}
+
+TEST(Rules, TheLastRoundPutsEveryColumnBack) {
+  // One more patch is bright in each round, as along a row of rooms: what is still out before the last round comes then.
+  Options options;
+  options.rules.rule2_repeated = true;
+  AmbientScene scene(grey(0.7) + "display 1 250\n" + box_walls(1, 1, 1, 3, 3, 3, "white"), options);
+  scene.light([](const Vec3&, std::uint32_t) { return 0.0; });
+  Matrix matrix(scene.loaded.arena);
+  Surfaces& surfaces = matrix.surfaces;
+  ASSERT_TRUE(gather_surfaces(scene.loaded.scene, scene.geometry, scene.patches, scene.direct, options,
+                              scene.loaded.arena, surfaces).done());
+  Sparsity& sparsity = matrix.sparsity;
+  ASSERT_TRUE(sparsity.take(scene.loaded.arena, surfaces, scene.direct, options.rules).done());
+  std::vector<double> ambient(scene.patches.size(), 0.0);
+  const auto sending = [&] {
+    std::size_t count = 0;
+    for (std::uint32_t node = 0; node < surfaces.size(); ++node) count += sparsity.sends(node) ? 1 : 0;
+    return count;
+  };
+  EXPECT_EQ(sending(), 0u);
+  EXPECT_FALSE(sparsity.restore(surfaces, scene.direct, ambient)) << "nothing is bright";
+  for (std::size_t round = 1; round < kGenerations; ++round) {
+    ambient[5 * round] = 100;
+    ASSERT_TRUE(sparsity.restore(surfaces, scene.direct, ambient)) << round;
+    EXPECT_EQ(sparsity.now(), round);
+    EXPECT_EQ(sending(), round + 1 < kGenerations ? round : ambient.size());
+  }
+  EXPECT_FALSE(sparsity.restore(surfaces, scene.direct, ambient)) << "all are there";
 }
 
 TEST(Rules, RuleTwosBoundIsNeverBelowItsLoss) {
@@ -319,6 +349,47 @@ TEST(Blocks, InABareRoomRowsAreScaledToOneAndTheLightIsKept) {
   EXPECT_NEAR(all * 0.5 / sent, 1, 0.01);
   const StoredMatrix stored(scene);
   EXPECT_GT(scene.statistics.rows_scaled, stored.n * 95 / 100);
+}
+
+TEST(Blocks, InAnOpenRoomWhatIsMissingStaysMissing) {
+  // The light that leaves through a missing ceiling and wall is no error of the rows.
+  const std::string whole = box_walls(4, 3, 2.5, 6, 5, 4, "white");
+  const std::size_t ceiling = whole.find("object ceiling_"), next = whole.find("object wall_y0"),
+                    last = whole.find("object wall_x1");
+  const std::string open = grey(0.8) + whole.substr(0, ceiling) + whole.substr(next, last - next);
+  const auto lit = [](const Vec3& p, std::uint32_t) { return 50 + 20 * p.y; };
+  AmbientScene none(open, with_rules({})), linked(open, with_rules(blocks(0)));
+  for (AmbientScene* scene : {&none, &linked}) {
+    scene->light(lit);
+    ASSERT_TRUE(scene->solve().done());
+  }
+  // Half of a corner's hemisphere is open: a row that were scaled up would have up to twice its light.
+  for (std::size_t i = 0; i < none.patches.size(); ++i) {
+    EXPECT_LT(linked.ambient.patch_lx[i], 1.25 * none.ambient.patch_lx[i]) << i;
+  }
+  EXPECT_NEAR(linked.mean(true) / none.mean(true), 1, 0.02);
+  EXPECT_LT(linked.statistics.rows_scaled, none.patches.size() / 2);
+}
+
+TEST(Blocks, WhatDoesNotBlockHidesNoneOfTheBlockersAfterIt) {
+  // By the scene's flags: a speck that blocks nothing stands in the file before a screen that does.
+  const auto mean = [](const char* speck, const char* screen) {
+    const std::string text = grey(0.5) + "display 0 1\n" + box_walls(4, 3, 2.5, 4, 4, 4, "white") +
+                             "object speck ambient " + speck + "\nquad white 3.9 0.1 0.1  3.95 0.1 0.1  3.95 0.15 0.1  "
+                             "3.9 0.15 0.1 patches 1 1 sub 1 1\nobject screen ambient " + screen +
+                             "\nquad white 2 0.1 0.1  2 2.9 0.1  2 2.9 2.4  2 0.1 2.4 patches 1 1 sub 1 1\n"
+                             "light l point at 1 1.5 1.2 intensity 100\n";
+    Options options = with_rules(blocks(0));
+    options.flags = FlagMode::kScene;
+    const SolvedScene solved(text, options);
+    double sum = 0;  // of the wall behind the screen
+    const Mesh& wall = solved.model->scene.meshes[5];
+    for (std::uint32_t k = 0; k < wall.patch_count(); ++k) sum += solved.model->ambient.patch_lx[wall.first_patch + k];
+    return sum;
+  };
+  const double both = mean("+blocks", "+blocks"), one = mean("-blocks", "+blocks"), none = mean("-blocks", "-blocks");
+  EXPECT_NEAR(one, both, 0.01 * both);
+  EXPECT_GT(none, 1.2 * both);
 }
 
 TEST(Blocks, TheSolutionIsThatOfTheStoredMatrix) {

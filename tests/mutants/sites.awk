@@ -16,7 +16,11 @@ FNR == 1 { table = 0 }
 {
   text = $0
   sub(/\/\/.*/, "", text)
-  gsub(/"[^"]*"/, "\"\"", text)
+  while (match(text, /"[^"]*"/)) {  # columns stay
+    blank = ""
+    while (length(blank) < RLENGTH) blank = blank "\047"
+    text = substr(text, 1, RSTART - 1) blank substr(text, RSTART + RLENGTH)
+  }
   if (text ~ /^ *#|static_assert|^ *template|SHODO_CHECK|operator/) next
   for (k = 1; k <= count; ++k) {
     word = from[k]

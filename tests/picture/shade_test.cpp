@@ -101,6 +101,19 @@ TEST(MapWalk, IsWithinASixteenthOfASubPatchAHairFromThePlane) {
   EXPECT_LE(worst.error, 1.0 / 16);
 }
 
+// Maps so fine that their coordinates have no room in fixed point: exact, sample by sample.
+TEST(MapWalk, IsExactOnMapsOfManyThousandSubPatches) {
+  for (const std::int32_t texels : {32767, 32768, 65535, 300000}) {
+    DrawnScene scene;
+    scene.mapped_quad({-9000, -9000, -4000}, {9000, -9000, -9000}, {9000, 9000, -9000}, {-9000, 9000, -4000}, texels,
+                      texels / 2);
+    const Worst worst = worst_coordinates(scene, grid_for(camera_at({0, 0, 0}, {0, 0, -1}, 65), 64, 50));
+    EXPECT_GT(worst.samples, 2000u);
+    // Rounded down to 1/4096.
+    EXPECT_LE(worst.error, texels < 32768 ? 1.0 / 16 : 1.0 / 4096) << texels;
+  }
+}
+
 TEST(MapWalk, DividesSeldomWhereItMay) {
   DrawnScene scene;
   scene.mapped_quad({-9000, -9000, -4000}, {9000, -9000, -4000}, {9000, 9000, -4000}, {-9000, 9000, -4000}, 50, 50);

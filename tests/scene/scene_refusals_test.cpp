@@ -1,5 +1,6 @@
 // Every wrong scene is refused with the place of the mistake, what was expected and what was found.
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 
 #include <cstdio>
 #include <string>
@@ -29,6 +30,17 @@ void expect_refused(const Refusal& refusal, const Options& options = {}) {
 /// A mistake in line 5, after what most statements need.
 Refusal after_start(const std::string& line, std::uint32_t column, const std::string& message) {
   return {"shodo 1\nmaterial m diffuse 0.5\nobject o\ntri m 0 0 0 0 0 1 1 0 0\n" + line + "\n", 5, column, message};
+}
+
+TEST(SceneRefusals, ATextOf4GiBIsRefusedBeforeItIsRead) {
+  // Memory that nobody touches: lines and columns are counted in 32 bits.
+  constexpr std::size_t kSize = 0xffffffff;
+  void* const pages = mmap(nullptr, kSize, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (pages == MAP_FAILED) GTEST_SKIP() << "no address space";
+  const TestScene scene(std::string_view(static_cast<const char*>(pages), kSize));
+  EXPECT_EQ(scene.status.code, StatusCode::kScene);
+  EXPECT_NE(std::string(scene.status.message).find("4 GiB"), std::string::npos);
+  munmap(pages, kSize);
 }
 
 TEST(SceneRefusals, TheVersionStandsFirstAndOnce) {

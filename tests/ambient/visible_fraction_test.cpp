@@ -1,0 +1,48 @@
+// The part of an exchange that is visible, where samples are few: across a plane, through panes.
+#include "ambient/visible_fraction.h"
+
+#include <string>
+
+#include "tests/ambient/ambient_scene.h"
+
+namespace shodo {
+namespace {
+
+const std::string kHead =
+    "shodo 1\nmaterial white diffuse 0.5\nmaterial glass diffuse 0 transmit 0.6\n"
+    "object floor\nquad white 0 0 0  1 0 0  1 1 0  0 1 0 patches 1 1 sub 1 1\n";
+
+TEST(VisibleFraction, OfAPatchOfWhichNoSampleIsInFrontIsNothing) {
+  // A wall that stands a hundredth above the floor and reaches a metre below: the contour integral has an exchange, but no
+  // sample of the wall is over the floor, so nothing is known to be seen. With a pane, and whatever the segments.
+  const std::string wall = "object wall\nquad white 0 0 -1  0 1 -1  0 1 0.01  0 0 0.01 patches 1 1 sub 1 1\n";
+  const std::string pane = "object pane\nquad glass 0.2 0 -1  0.2 1 -1  0.2 1 1  0.2 0 1 patches 1 1 sub 1 1\n";
+  for (const std::string& more : {std::string(), pane}) {
+    for (const std::uint32_t segments : {1u, 4u, 8u, 16u, 64u}) {
+      Options options;
+      options.segments_first = options.segments_mixed = segments;
+      options.scale_rows = false;
+      AmbientScene scene(kHead + wall + more, options);
+      const StoredMatrix stored(scene);
+      EXPECT_EQ(stored.form_factor(0, 1), 0) << segments;
+    }
+  }
+}
+
+TEST(VisibleFraction, ThroughAPaneIsWhatItTransmitsWhateverTheSegments) {
+  const std::string ceiling = "object ceiling\nquad white 0 0 1  0 1 1  1 1 1  1 0 1 patches 1 1 sub 1 1\n";
+  const std::string pane = "object pane\nquad glass -3 -3 0.5  4 -3 0.5  4 4 0.5  -3 4 0.5 patches 1 1 sub 1 1\n";
+  for (const std::uint32_t segments : {1u, 4u, 8u, 16u, 32u, 64u, 128u, 256u}) {
+    Options options;
+    options.segments_first = options.segments_mixed = segments;
+    options.scale_rows = false;
+    AmbientScene plain(kHead + ceiling, options), behind(kHead + ceiling + pane, options);
+    const StoredMatrix free(plain), weakened(behind);
+    EXPECT_GT(free.form_factor(0, 1), 0.19);
+    // To the rounding of stored values, twice.
+    EXPECT_NEAR(weakened.form_factor(0, 1), 0.6 * free.form_factor(0, 1), 2 * 0x1p-12 * 0.2) << segments;
+  }
+}
+
+}  // namespace
+}  // namespace shodo
