@@ -8,7 +8,7 @@ namespace shodo {
 
 namespace {
 
-constexpr std::uint64_t kLeaf = 4;
+constexpr std::uint64_t kLeaf = 5;
 // Of Slabs, where 2^32 is the whole direction: inverses are off by at most 1, times 2^21 steps.
 constexpr std::int64_t kSlack = std::int64_t{1} << 22;
 
@@ -141,7 +141,7 @@ bool RayTree::meets(const LatticeBox& box, const Slabs& slabs, std::int64_t limi
 }
 
 bool RayTree::invisible(const DrawnTriangle& triangle, bool front) const {
-  if (triangle.light == kNone || !scene_->lights[triangle.light].open) return false;
+  if (triangle.light >= scene_->lights.size() || !scene_->lights[triangle.light].open) return false;
   return !front || !scene_->background.empty();
 }
 

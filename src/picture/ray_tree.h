@@ -1,6 +1,6 @@
 // The drawn triangles in a tree of boxes, for rays (paper 2.4; only for scenes with mirrors, glass or highlights).
 //
-// Median cuts along the axis that leaves both halves' boxes the least surface (MacDonald and Booth 1990); children of node k are 2 k + 1 and 2 k + 2, leaves hold up to four
+// Median cuts along the axis that leaves both halves' boxes the least surface (MacDonald and Booth 1990); children of node k are 2 k + 1 and 2 k + 2, leaves hold up to five
 // triangles. A ray's nearest hit is sought near boxes first; a box that begins beyond the nearest hit so far is left
 // out. Boxes are tested with 2^32 / |d| rounded down, and as much to spare as that can be off, so none that is met is
 // left out.

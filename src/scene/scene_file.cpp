@@ -27,12 +27,22 @@ bool check_cameras(const Scene& scene, Status& status, Wanted& wanted) {
   return true;
 }
 
+/// Without effects the picture is drawn of illuminance maps and mean reflectances alone. What light may pass or be
+/// mirrored by stays, and so does the place of everything: maps are the same both ways.
+void leave_out_effects(Scene& scene) {
+  scene.effects = false;
+  scene.textures = {};
+  scene.background = {};
+  scene.glass = {};
+}
+
 bool finish(Scene& scene, const Options& options, const Reader& reader, Arena& arena, Status& status,
             Wanted& wanted) {
+  centre_scene(scene);
+  if (!options.effects) leave_out_effects(scene);
   wanted.kind = Wanted::Kind::kTexture;
   if (!load_textures(scene, reader, arena, status, wanted.index)) return false;
   wanted = {};
-  centre_scene(scene);
   place_lights(scene);
   decide_channels(scene);
   return check_cameras(scene, status, wanted) && decide_counts(scene, options, status, wanted);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "support/scene_from_text.h"
+#include "support/kept_scene.h"
 
 namespace shodo {
 namespace {
@@ -34,7 +34,7 @@ std::string scene_with(const std::string& words) { return "shodo 1\nmaterial m d
 
 TEST(Texture, IsTheFilesTexelsAndTheirLinearMean) {
   const std::string texels = noise(5 * 3 * 3, 1);
-  const LoadedScene loaded(scene_with("texture a.ppm size 0.5 0.75"), {}, {{"a.ppm", ppm(5, 3, texels)}});
+  const KeptScene loaded(scene_with("texture a.ppm size 0.5 0.75"), {}, {{"a.ppm", ppm(5, 3, texels)}});
   ASSERT_EQ(loaded.scene.textures.size(), 1u);
   const Texture& texture = loaded.scene.textures[0];
   EXPECT_EQ(texture.width, 5u);
@@ -55,7 +55,7 @@ TEST(Texture, IsTheFilesTexelsAndTheirLinearMean) {
 TEST(Texture, EachLevelHalvesTheOneBeforeByAreaMeans) {
   for (const auto& [width, height] : {std::pair(8u, 8u), {7u, 5u}, {1u, 9u}, {13u, 2u}, {3u, 3u}}) {
     const std::string file = ppm(width, height, noise(std::size_t{width} * height * 3, 2));
-    const LoadedScene loaded(scene_with("texture a.ppm"), {}, {{"a.ppm", file}});
+    const KeptScene loaded(scene_with("texture a.ppm"), {}, {{"a.ppm", file}});
     const Texture& texture = loaded.scene.textures[0];
     std::uint32_t level = 0;
     for (;; ++level) {
@@ -93,9 +93,9 @@ TEST(Texture, EachLevelHalvesTheOneBeforeByAreaMeans) {
 TEST(Texture, GreyPicturesHaveOneChannel) {
   std::string grey;
   for (const char c : noise(12, 3)) grey += std::string(3, c);
-  const LoadedScene colour(scene_with("texture a.ppm"), {}, {{"a.ppm", ppm(4, 3, grey)}});
-  const LoadedScene map(scene_with("texture a.pgm"), {}, {{"a.pgm", ppm(4, 3, noise(12, 3), "P5\t# from a scan\n")}});
-  for (const LoadedScene* loaded : {&colour, &map}) {
+  const KeptScene colour(scene_with("texture a.ppm"), {}, {{"a.ppm", ppm(4, 3, grey)}});
+  const KeptScene map(scene_with("texture a.pgm"), {}, {{"a.pgm", ppm(4, 3, noise(12, 3), "P5\t# from a scan\n")}});
+  for (const KeptScene* loaded : {&colour, &map}) {
     EXPECT_EQ(loaded->scene.channels, 1u);
     EXPECT_EQ(loaded->scene.textures[0].channels, 1u);
   }
@@ -132,7 +132,7 @@ TEST(Texture, OneFileIsInMemoryOnce) {
   const std::string two = "shodo 1\nmaterial m diffuse 0.1 texture a/x.ppm\n"
                           "material n diffuse 0.2 0.1 0.1 texture a/../a/x.ppm size 2 1\n" +
                           kSquare + "quad n 0 1 0  0 1 3  2 1 3  2 1 0\n";
-  const LoadedScene loaded(two, {}, {{"a/x.ppm", ppm(2, 2, noise(12, 4, 100, 140))}});
+  const KeptScene loaded(two, {}, {{"a/x.ppm", ppm(2, 2, noise(12, 4, 100, 140))}});
   EXPECT_EQ(loaded.scene.textures[0].texels.data(), loaded.scene.textures[1].texels.data());
   EXPECT_EQ(loaded.scene.textures[1].mean[2], loaded.scene.textures[0].mean[2]);
   EXPECT_EQ(loaded.scene.textures[1].size_u, 2);
@@ -187,11 +187,12 @@ TEST(Texture, NoTexelMayReflectMoreThanEverything) {
 
 TEST(Texture, TooLittleMemoryNamesWhatWouldDo) {
   const TestFiles files{{"a.ppm", ppm(100, 100, noise(30000, 5, 100, 200))}};
-  const TestScene scarce(scene_with("texture a.ppm"), {}, files, 20000);
+  TestScene scarce(scene_with("texture a.ppm"), {}, files, 20000);
+  ASSERT_TRUE(scarce.status.done()) << to_text(scarce.status);
+  EXPECT_FALSE(keep_texels(scarce.scene, reader_of(scarce.files), scarce.arena, scarce.status));
   EXPECT_EQ(scarce.status.code, StatusCode::kMemory);
-  EXPECT_GT(scarce.status.bytes_needed, 39000u);
-  const TestScene enough(scene_with("texture a.ppm"), {}, files, static_cast<std::size_t>(scarce.status.bytes_needed));
-  EXPECT_TRUE(enough.status.done()) << to_text(enough.status);
+  EXPECT_EQ(scarce.status.bytes_needed, scarce.arena.used() + texel_bytes(scarce.scene));
+  EXPECT_GT(texel_bytes(scarce.scene), 39000u);
 }
 
 }  // namespace
