@@ -1,4 +1,4 @@
-# shodo: `make` builds build/shodo. Other targets: rooms, pictures, report, test, hard, stability, load, coverage,
+# shodo: `make` builds build/shodo. Other targets: rooms, pictures, textures, report, test, hard, stability, load, coverage,
 # check-same-bytes, fuzz, soak, mutants, machines, workstation, scaling, memory-cost, check-budgets, install,
 # install-needs, clean.
 #
@@ -80,14 +80,21 @@ report: $(BUILD)/shodo
 # The paper's two figures.
 rooms: $(OUT)/day.png $(OUT)/evening.png
 
-$(OUT)/%.png: data/%.scn $(BUILD)/shodo $(wildcard data/*)
+$(OUT)/%.png: data/%.scn $(BUILD)/shodo $(wildcard data/* data/textures/*)
 	@mkdir -p $(OUT)
 	$(BUILD)/shodo render $< -o $@ --stats $(OUT)/$*.json
 
-# Those of doc/measuring.md.
-PICTURE_SCENES = cornell white_box door stair
-pictures: $(PICTURE_SCENES:%=doc/pictures/%.png) doc/pictures/false-colour.png doc/pictures/isolux.png \
-  doc/pictures/patches.png doc/pictures/difference.png
+# Those of doc/pictures.md.
+PICTURE_SCENES = cornell white_box door stair studio garden gallery
+VIEWS = false-colour isolux patches day-maps evening-maps day-window evening-window
+pictures: doc/pictures/day.png doc/pictures/evening.png doc/pictures/difference.png \
+  $(PICTURE_SCENES:%=doc/pictures/%.png) $(VIEWS:%=doc/pictures/%.png)
+doc/pictures/day.png doc/pictures/evening.png: doc/pictures/%.png: $(OUT)/%.png
+	cp $< $@
+doc/pictures/day-maps.png doc/pictures/day-window.png: SCENE = day
+doc/pictures/evening-maps.png doc/pictures/evening-window.png: SCENE = evening
+doc/pictures/day-maps.png doc/pictures/evening-maps.png: SHOWN = --effects off
+doc/pictures/day-window.png doc/pictures/evening-window.png: SHOWN = --camera window
 $(PICTURE_SCENES:%=doc/pictures/%.png): SCENE = $(basename $(notdir $@))
 doc/pictures/false-colour.png: SCENE = evening
 doc/pictures/false-colour.png: SHOWN = --false-colour auto --isolux auto
@@ -95,7 +102,7 @@ doc/pictures/isolux.png: SCENE = door
 doc/pictures/isolux.png: SHOWN = --isolux auto
 doc/pictures/patches.png: SCENE = stair
 doc/pictures/patches.png: SHOWN = --show patches
-doc/pictures/%.png: $(BUILD)/shodo $(wildcard data/*)
+doc/pictures/%.png: $(BUILD)/shodo $(wildcard data/* data/textures/*)
 	$(BUILD)/shodo render data/$(SCENE).scn -o $@ --size 400x320 $(SHOWN)
 doc/pictures/difference.png: $(BUILD)/shodo data/door.scn
 	@mkdir -p $(OUT)
@@ -103,7 +110,14 @@ doc/pictures/difference.png: $(BUILD)/shodo data/door.scn
 	$(BUILD)/shodo render data/door.scn -o $(OUT)/door-2.ppm --size 400x320 --rules 2
 	$(BUILD)/shodo difference $(OUT)/door.ppm $(OUT)/door-2.ppm -o $@
 
-test: $(BUILD)/shodo $(BUILD)/tests
+# The pictures of data/textures; TEXTURES: where to.
+TEXTURES = data/textures
+$(BUILD)/paint: tools/paint.cpp $(BUILD)/flags.stamp
+	$(CXX) $(COMMON_FLAGS) $< -o $@
+textures: $(BUILD)/paint
+	$(BUILD)/paint $(TEXTURES)
+
+test: $(BUILD)/shodo $(BUILD)/tests $(BUILD)/paint
 	@BUILD=$(BUILD) sh tests/run
 
 # All hard cases with their long sweeps: the table, and out/hard.csv (number,name,status,figure).
@@ -191,7 +205,7 @@ clean:
 	rm -rf $(BUILD) $(OUT)
 
 FORCE:
-.PHONY: all rooms pictures report test hard stability load coverage check-same-bytes fuzz soak mutants machines \
+.PHONY: all rooms pictures textures report test hard stability load coverage check-same-bytes fuzz soak mutants machines \
   workstation scaling memory-cost check-budgets install install-needs clean FORCE
 .SECONDARY:
 

@@ -37,8 +37,8 @@ std::uint64_t mirror_bytes(const Model& model) {
 /// What load() leaves, and what it takes meanwhile.
 void plan_scene(const Model& model, MemoryPlan& plan) {
   plan.add(PlanPart::kModel, model.overhead, kAll);
-  plan.add(PlanPart::kScene, model.after_scene, kAll);
-  plan.add(PlanPart::kTriangles, model.after_geometry - model.after_scene, kAll);
+  plan.add(PlanPart::kScene, model.geometry.before_triangles, kAll);
+  plan.add(PlanPart::kTriangles, model.after_geometry - model.geometry.before_triangles, kLoad | kLight);
   plan.add(PlanPart::kDrawn, drawn_bytes(model), kLoad | kPicture);
   const std::uint64_t left = model.after_geometry + drawn_bytes(model) + model.overhead;
   plan.add(PlanPart::kPlacing, model.loaded.stage_peak[0] - left, kLoad);
@@ -68,7 +68,9 @@ void plan_light(const Model& model, MemoryPlan& plan) {
   if (const std::uint64_t rounds = rounds_bytes(scene, model.geometry, options); rounds > 0) {
     plan.add(PlanPart::kAmbientOptics, rounds, kAmbient);
   }
-  plan.add(PlanPart::kSubPatches, direct_sub_patch_bytes(scene, options), kAgain | kMap | kPicture);
+  const std::uint64_t factors = sub_patch_factor_bytes(scene, options);
+  plan.add(PlanPart::kSubPatches, direct_sub_patch_bytes(scene, options) - factors, kAgain | kMap | kPicture);
+  if (factors > 0) plan.add(PlanPart::kFactors, factors, kAgain | kMap);
 }
 
 /// Nothing for scenes without planes.
@@ -103,8 +105,8 @@ const char* plan_stage_name(PlanStage stage) {
 PartText plan_part_text(PlanPart part) {
   static constexpr PartText kTexts[] = {
       {"the model", "its structure, and up to 7 for alignment"},
-      {"scene", "40 materials + 40 objects + 56 meshes + 24 vertices + 248 lights + 96 cameras + 136 planes + names; textures: 4/3 of their texels + 24 textured meshes + 4 c a patch of one"},
-      {"triangles that block", "72 triangles + 8 polygons + 4 meshes + 20 lights"},
+      {"scene", "40 materials + 40 objects + 56 meshes + 24 vertices + 260 lights + 96 cameras + 136 planes + names; 24 textured meshes + 4 c a patch of one"},
+      {"triangles that block", "72 triangles + 8 polygons + 4 meshes + 8 lights"},
       {"triangles of the picture", "68 drawn triangles; spare: given up while there is light to find"},
       {"while placing", "16 vertices + 24 polygons + 12 insertions + a tree; then 72 n, the patches"},
       {"flags", "2 (objects + lights)"},
@@ -122,14 +124,15 @@ PartText plan_part_text(PlanPart part) {
        "16 c + 8 a node (16 more in grey, + 2 with rules 1 and 2, 16 with 2+) + one "
        "row + the coarse correction + 2,300; rows: what is left"},
       {"ambient light by channel, over mirrors", "8 c n where panes are coloured, 24 c n with --mirror-light on"},
-      {"direct light of the sub-patches", "(4 c + 1) s, (4 c + 3) s with --gather on; spare: given up to the rows"},
+      {"direct light of the sub-patches", "(4 c + 1) s; spare: given up to the rows"},
+      {"what the sub-patches see of lights", "2 s, with --gather on; spare as these"},
       {"light of measuring planes", "(8 c + 1) sub-patches of planes"},
       {"while measuring", "(44 + 8 c) sub-patches of a plane's patch"},
       {"ambient maps", "4 c s"},
       {"spreading over a mesh, or gathering",
        "9 a patch + 8 a row of sub-patches, of the largest mesh; --gather: surfaces + possible blockers + 4 c blocks + "
        "2 a node + 16,384 + 4 facets + 48 objects + 9,000"},
-      {"drawing, or placing again", "2 c s + 8193 + (4 c + 3) width + 4 rows + 10 drawn + 208 active triangles"},
+      {"drawing, or placing again", "2 c s + 8193 + (4 c + 3) width + 4 rows + 10 drawn + 208 active triangles; textures: 4/3 of their texels"},
   };
   static_assert(sizeof kTexts / sizeof(PartText) == static_cast<std::size_t>(PlanPart::kDrawing) + 1);
   return kTexts[static_cast<std::size_t>(part)];

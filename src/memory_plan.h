@@ -21,7 +21,7 @@ const char* plan_stage_name(PlanStage stage);
 
 enum class PlanPart : std::uint8_t {
   kModel, kScene, kTriangles, kDrawn, kPlacing, kFlags, kDirectLight, kBlockers, kMasks, kSources, kMirrors, kAmbientLight,
-  kSurfaces, kLinks, kSolution, kAmbientOptics, kSubPatches, kPlanes, kMeasuring, kMaps, kSpreading, kDrawing
+  kSurfaces, kLinks, kSolution, kAmbientOptics, kSubPatches, kFactors, kPlanes, kMeasuring, kMaps, kSpreading, kDrawing
 };
 
 /// For whoever shows a plan; not linked where nobody does.

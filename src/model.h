@@ -25,6 +25,7 @@ struct Model {
 
   Arena arena;
   Options options;
+  Reader reader;                   // of the pictures that the scene names
   Statistics statistics;
   Scene scene;
   Geometry geometry;
@@ -47,6 +48,7 @@ struct Model {
   Arena::Mark before_drawing = 0;
   Statistics loaded;               // and what was counted until then
   bool solved = false;
+  bool placed = true;              // blocking triangles are there: until the picture wants their memory
 };
 
 /// What every sample of the picture of a solved model sees. Errors: as draw().

@@ -15,6 +15,7 @@
 #include "model.h"
 #include "picture/picture.h"
 #include "scene/scene_file.h"
+#include "scene/texture.h"
 
 namespace shodo {
 
@@ -149,11 +150,23 @@ void move_down(std::span<T>& block, std::size_t bytes) {
   if (!block.empty()) block = {block.data() - bytes / sizeof(T), block.size()};
 }
 
-/// Leaves only what the picture is made of: patches and all that is by patch go, and the maps take their place.
-void give_up_patches(Model& model) {
+/// What sub-patches know of lights served gathering alone; `end`: of where it stands, if it isn't spare.
+void forget_factors(Model& model, Arena::Mark end) {
+  std::span<std::uint16_t>& factors = model.direct.sub_patch_factor;
+  if (factors.empty()) return;
+  if (model.arena.holds(factors)) {
+    model.arena.release_spares(model.arena.spares() - 1);
+  } else {
+    move_down(model.maps.ambient_lx, model.arena.lower(end, end - (factors.size_bytes() + 7) / 8 * 8));
+  }
+  factors = {};
+}
+
+/// What the picture is made of takes the place of what lies from `to` on.
+void lower_maps(Model& model, Arena::Mark to) {
   const bool with_direct = !model.arena.holds(model.direct.sub_patch_lx);
-  const std::size_t by = model.arena.lower(model.before_maps, model.after_geometry);
-  model.before_maps = model.after_geometry;
+  const std::size_t by = model.arena.lower(model.before_maps, to);
+  model.before_maps = to;
   move_down(model.planes.direct_lx, by);
   move_down(model.planes.ambient_lx, by);
   move_down(model.planes.hidden, by);
@@ -161,15 +174,45 @@ void give_up_patches(Model& model) {
   if (with_direct) {
     move_down(model.direct.sub_patch_lx, by);
     move_down(model.direct.hidden, by);
-    move_down(model.direct.sub_patch_factor, by);
     model.maps.direct_lx = model.direct.sub_patch_lx;
     model.maps.hidden = model.direct.hidden;
   }
+}
+
+/// Patches and all that is by patch go.
+void give_up_patches(Model& model) {
+  lower_maps(model, model.after_geometry);
   model.patches = {};
   model.flags = {};
   model.direct.patch_lx = {};
   model.direct.visible_area = model.direct.light_form_factor = {};
   model.ambient = {};
+}
+
+/// And what blocks.
+void give_up_triangles(Model& model) {
+  Geometry& geometry = model.geometry;
+  lower_maps(model, geometry.before_triangles);
+  geometry.triangles = {};
+  geometry.panes = {};
+  geometry.cells = geometry.light_triangles = {};
+  geometry.first_cell = {};
+  model.placed = false;
+}
+
+/// They come back when the scene is solved once more.
+Status place_again(Model& model) {
+  if (model.placed) return {};
+  model.arena.release(model.after_scene);
+  model.arena.pin_spares(0);
+  model.arena.release_spares(0);
+  const Statistics counted = model.statistics;
+  const Status status = place_scene(model.scene, model.arena, model.geometry);
+  model.statistics = counted;
+  model.loaded_spares = model.arena.spares();
+  model.arena.pin_spares(0);
+  model.placed = status.done();
+  return status;
 }
 
 /// The drawn triangles, if the light took their memory.
@@ -179,7 +222,8 @@ Status place_drawn_again(Model& model) {
   const bool held = arena.holds(geometry.drawn) && geometry.drawn.size() == geometry.drawn_count;
   arena.pin_spares(arena.spares());
   const std::uint64_t wanted = held ? model.picture_scratch : drawn_and_picture_bytes(model);
-  if (wanted > arena.left()) give_up_patches(model);
+  if (wanted > arena.left() && model.placed) give_up_patches(model);
+  if (wanted > arena.left() && model.placed) give_up_triangles(model);
   model.before_drawing = arena.mark();
   if (held) return {};
   model.statistics.placed_again = 1;
@@ -228,6 +272,7 @@ Status start_loading(std::string_view name, std::string_view text, const Reader&
   std::byte* start = static_cast<std::byte*>(memory) + skip;
   Model* read = new (start) Model(start + sizeof(Model), bytes - overhead);
   read->options = options;
+  read->reader = reader;
   read->memory_bytes = bytes;
   read->overhead = overhead;
   read->statistics.memory_budget = bytes;
@@ -243,7 +288,7 @@ Status finish_loading(Model& model) {
   if (!status.done()) return with_model(status, model.overhead);
   count_scene(model);
   model.arena.pin_spares(0);
-  model.picture_scratch = picture_bytes(model.scene, model.geometry, model.options);
+  model.picture_scratch = texel_bytes(model.scene) + picture_bytes(model.scene, model.geometry, model.options);
   model.statistics.stage_peak[0] = model.statistics.memory_peak = model.overhead + model.arena.peak();
   model.arena.start_stage();
   model.loaded = model.statistics;
@@ -269,7 +314,8 @@ Status start_solving(Model& model) {
   if (!model.arena.holds(model.geometry.drawn)) model.geometry.drawn = {};
   model.arena.release_spares(model.geometry.drawn.empty() ? 0 : model.loaded_spares);
   model.arena.pin_spares(0);
-  Status status = take_patches(model);
+  Status status = place_again(model);
+  if (status.done()) status = take_patches(model);
   if (!status.done()) return with_model(status, model.overhead);
   model.arena.start_stage();
   model.intersector = Intersector(model.geometry, model.scene, model.options.flags);
@@ -316,6 +362,7 @@ Status solve_maps(Model& model, const Progress& progress) {
                            model.intersector, progress, model.arena, model.planes, model.statistics);
   }
   model.flags = model.intersector.flags();
+  const Arena::Mark before_ambient = model.arena.mark();
   if (status.done()) {
     status = map_illuminance(model.scene, model.patches, model.direct, model.ambient, model.options, model.arena,
                              model.maps);
@@ -326,6 +373,7 @@ Status solve_maps(Model& model, const Progress& progress) {
                                 model.statistics);
   }
   end_stage(model, MemoryStage::kMap);
+  if (status.done()) forget_factors(model, before_ambient);
   model.solved = status.done();
   return with_model(status, model.overhead);
 }
@@ -356,8 +404,12 @@ Status start_drawing(Model& model, const Progress& progress) {
 }
 
 Status finish_drawing(Model& model, const Progress& progress, const LineSink& sink) {
-  return end_drawing(model, draw_picture(model.scene, model.geometry, model.maps, model.options, progress,
-                                         model.arena, sink));
+  Status status;
+  if (keep_texels(model.scene, model.reader, model.arena, status)) {
+    status = draw_picture(model.scene, model.geometry, model.maps, model.options, progress, model.arena, sink);
+  }
+  forget_texels(model.scene);
+  return end_drawing(model, status);
 }
 
 Status draw(Model& model, const Progress& progress, const LineSink& sink) {

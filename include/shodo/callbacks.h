@@ -8,7 +8,7 @@
 namespace shodo {
 
 /// Gives the text of a file that a scene names. `path` is relative to the top file's folder, with '/' between folders,
-/// and never leaves it. The text must stay until loading has returned. Of a picture: PPM or PGM, P6 or P5.
+/// and never leaves it. The text must stay until load() or draw() has returned; both ask for pictures (PPM, P6 or P5).
 struct Reader {
   /// False if the file can't be read.
   bool (*read)(void* context, std::string_view path, std::string_view& text) = nullptr;

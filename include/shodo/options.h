@@ -40,6 +40,8 @@ struct Options {
   double gather_error = 0;             // of one node's light there, of the mean illuminance; 0: the default
   std::uint32_t row_value_bits = 16;   // 16 or 64
   bool mirror_light = false;           // mirrors send light on, once
+  bool effects = true;                 // textures, panes, mirrors, highlights and the background are drawn; else the
+                                       // picture is made of illuminance maps and mean reflectances, as the paper's
   std::uint32_t width = 1280;          // pixels, 1 .. 16384
   std::uint32_t height = 1024;
   std::uint32_t antialias = 4;         // samples a pixel: 1, 4 or 16

@@ -47,6 +47,7 @@ std::vector<ReportJob> jobs_of(const Arguments& arguments, const std::string& sc
     made.scene = scene;
     made.label = stem(scene) + ", " + what;
     made.options = options;
+    made.options.effects = false;  // pictures are compared for their light
     made.memory = arguments.memory;
     made.takes_more = takes_more;
     return made;

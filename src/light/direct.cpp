@@ -269,7 +269,11 @@ std::uint64_t direct_patch_bytes(const Scene& scene) {
 
 std::uint64_t direct_sub_patch_bytes(const Scene& scene, const Options& options) {
   const std::uint64_t s = scene.sub_patch_count;
-  return block(4 * s * scene.channels) + block(s) + block(2 * sub_patch_factors(scene, options));
+  return block(4 * s * scene.channels) + block(s) + sub_patch_factor_bytes(scene, options);
+}
+
+std::uint64_t sub_patch_factor_bytes(const Scene& scene, const Options& options) {
+  return block(2 * sub_patch_factors(scene, options));
 }
 
 }  // namespace shodo

@@ -39,5 +39,7 @@ Status light_directly(const Scene& scene, const Geometry& geometry, std::span<co
 /// Arena bytes of what stays of the patches, and of the sub-patches.
 std::uint64_t direct_patch_bytes(const Scene& scene);
 std::uint64_t direct_sub_patch_bytes(const Scene& scene, const Options& options);
+/// Of these, what only gathering asks for.
+std::uint64_t sub_patch_factor_bytes(const Scene& scene, const Options& options);
 
 }  // namespace shodo

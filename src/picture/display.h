@@ -28,6 +28,21 @@ std::uint16_t display_steps(double v);
 /// Luminance of a channel in display steps.
 std::uint16_t luminance_steps(const Display& display, double luminance_cd_m2);
 
+/// Rolls off steps that were added or multiplied first: of luminance from 0, or of v with black 0.
+struct RollOff {
+  bool on = false;
+  std::uint32_t black = 0;  // steps of the display's MIN
+
+  /// At most white.
+  std::uint32_t shown(std::uint32_t steps) const {
+    const std::uint32_t range = kWhite - black;
+    if (steps <= black || 2 * (steps - black) <= range) return steps;
+    if (!on) return steps < kWhite ? steps : kWhite;
+    const std::uint32_t above = steps - black;
+    return kWhite - (range * range / 4 + above / 2) / above;
+  }
+};
+
 /// level[s] = round(255 sRGB(v)), s = 0 .. 8192, v = (s / 8192 - black) / (1 - black): steps from luminance 0 have the
 /// display's black at MIN / MAX.
 void fill_display_table(std::span<std::uint8_t> level, double black = 0);

@@ -85,6 +85,20 @@ Piece triangle_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   return piece;
 }
 
+/// An odd point kOff steps in front of the face, on its own: what blocks may be gone when pictures are drawn.
+LatticePoint end_at(const Lattice& lattice, const Piece& face, const Vec3& point) {
+  constexpr std::int32_t kOff = 16;  // more than mending moves a corner
+  Triangle own[2];
+  const std::uint32_t count = lattice_quad(lattice, face.corner, own);
+  LatticePoint p = sample_point(lattice, std::span<const Triangle>(own, count), point);
+  if (count == 0) return p;
+  const std::int64_t n[3] = {own[0].n.x, own[0].n.y, own[0].n.z};
+  const auto size = [&](int k) { return n[k] < 0 ? -n[k] : n[k]; };
+  const int yz = size(2) > size(1) ? 2 : 1, axis = size(yz) > size(0) ? yz : 0;
+  (axis == 0 ? p.x : axis == 1 ? p.y : p.z) += n[axis] < 0 ? -kOff : kOff;
+  return p;
+}
+
 }  // namespace
 
 /// Luminance, and what segments have found.
@@ -203,7 +217,7 @@ void Highlights::add(std::uint32_t optics, const HighlightView& view, double (&l
 /// an opening.
 bool Highlights::passes_by(std::uint32_t t, const DrawnTriangle& surface) const {
   const DrawnTriangle& drawn = geometry_->drawn[t];
-  if (drawn.light != kNone && scene_->lights[drawn.light].open) return true;
+  if (drawn.light != kNone && (drawn.light >= scene_->lights.size() || scene_->lights[drawn.light].open)) return true;
   for (const LatticePoint& p : drawn.vertex) {
     if (side_of(surface, p) > 0) return false;
   }
@@ -292,7 +306,7 @@ void Highlights::add_light(std::uint32_t light, double lx, const Ray& ray, bool 
   bool blocked = false, dimmed = false;
   tree_->visit_blockers(ray, ends, [&](const RayHit& hit) {
     const DrawnTriangle& drawn = geometry_->drawn[hit.triangle];
-    if (drawn.light != kNone && scene_->lights[drawn.light].open) return true;
+    if (drawn.light != kNone && (drawn.light >= scene_->lights.size() || scene_->lights[drawn.light].open)) return true;
     dimmed = true;
     blocked = !weaken(hit.triangle, arrives);
     return !blocked;
@@ -476,7 +490,8 @@ double Highlights::lobe_lux(const FaceView& face, double s, double t, double are
 void Highlights::add_at(const FaceView& face, double s, double t, double area, const Near& near, Sum& sum) const {
   const double lx = lobe_lux(face, s, t, area);
   if (!(lx >= 0)) return;
-  const LatticePoint end = segment_end(*scene_, *geometry_, face.emitter, face.look.point + face.way(s, t));
+  const LatticePoint end =
+      end_at(geometry_->lattice, emitter_piece(*scene_, face.emitter), face.look.point + face.way(s, t));
   add_past(near, face.emitter.light, lx, {face.look.from, end - face.look.from}, sum);
 }
 

@@ -92,6 +92,7 @@ bool LightPaths::start(const Scene& scene, const Geometry& geometry, const Displ
   }
   const LatticeVector up = lattice_direction(background.up);
   up_ = {up.x >> 5, up.y >> 5, up.z >> 5};
+  picture_.start(scene, grid, fine_steps(background.luminance));
   return true;
 }
 
@@ -103,8 +104,10 @@ std::uint64_t LightPaths::bytes(const Scene& scene, const Geometry& geometry) {
 }
 
 std::uint32_t LightPaths::optics_at(const DrawnTriangle& drawn) const {
-  if (drawn.mesh == kNone) return kNone;
-  const Optics* const found = scene_->optics_of(scene_->meshes[drawn.mesh].material);
+  const std::uint32_t glass = glass_of(*scene_, drawn);
+  if (drawn.mesh == kNone && glass == kNone) return kNone;
+  const Optics* const found =
+      scene_->optics_of(glass == kNone ? scene_->meshes[drawn.mesh].material : scene_->glass[glass].material);
   return found == nullptr ? kNone : static_cast<std::uint32_t>(found - scene_->optics.data());
 }
 
@@ -226,6 +229,7 @@ bool LightPaths::pass(const RayHit& hit, Path& path, FineColour& sum, PathRecord
 void LightPaths::add_surface(const DrawnTriangle& drawn, const RayHit& hit, const Path& path, FineColour& sum,
                              PathHit* noted) const {
   const std::uint32_t channels = scene_->channels;
+  if (glass_of(*scene_, drawn) != kNone) return;
   if (drawn.mesh == kNone) {
     for (std::uint32_t c = 0; c < channels; ++c) sum[c] += std::uint64_t{path.part[c]} * light(drawn.light, c);
     return;
@@ -332,6 +336,17 @@ void LightPaths::add_background(const Path& path, FineColour& sum, PathRecord* r
     for (std::uint32_t& shown : noted->shown) shown = 0;
   }
   if (scene_->background.empty()) return;
+  std::uint32_t shown[3];
+  const bool sky = background(way, shown);
+  if (noted != nullptr) noted->front = sky;
+  for (std::uint32_t c = 0; c < scene_->channels; ++c) {
+    if (noted != nullptr) noted->shown[c] = shown[c];
+    sum[c] += std::uint64_t{path.part[c]} * shown[c];
+  }
+}
+
+bool LightPaths::background(const LatticeVector& way, std::uint32_t (&shown)[3]) const {
+  if (picture_.look_up(way, shown)) return true;
   const LatticeVector d{way.x >> 5, way.y >> 5, way.z >> 5};
   const std::int64_t rise = dot(d, up_);  // at most 2^31.6
   // The square of the sine, in 65536ths: 32 bits over 16.
@@ -343,13 +358,11 @@ void LightPaths::add_background(const Path& path, FineColour& sum, PathRecord* r
   const std::uint32_t squared =
       below == 0 ? 0 : above >= std::uint64_t{below} << 16 ? kWholePart : static_cast<std::uint32_t>(above) / below;
   const std::uint64_t high = squared < kWholePart ? squared : kWholePart;
-  if (noted != nullptr) noted->front = rise >= 0;
   for (std::uint32_t c = 0; c < scene_->channels; ++c) {
     const std::uint64_t sky = (horizon_[c] * (kWholePart - high) + zenith_[c] * high) >> 16;
-    const std::uint64_t shown = rise < 0 ? std::uint64_t{ground_[c]} : sky;
-    if (noted != nullptr) noted->shown[c] = static_cast<std::uint32_t>(shown);
-    sum[c] += path.part[c] * shown;
+    shown[c] = rise < 0 ? ground_[c] : static_cast<std::uint32_t>(sky);
   }
+  return rise >= 0;
 }
 
 }  // namespace shodo

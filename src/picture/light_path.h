@@ -21,6 +21,7 @@
 #include <span>
 
 #include "base/arena.h"
+#include "picture/background_picture.h"
 #include "picture/display.h"
 #include "picture/highlight.h"
 #include "picture/ray_tree.h"
@@ -93,6 +94,10 @@ class LightPaths {
     return light_[light * scene_->channels + channel];
   }
   std::uint32_t fine_steps(double luminance_cd_m2) const;
+  /// Fine steps of the background in a ray's direction; false below the horizon.
+  bool background(const LatticeVector& way, std::uint32_t (&shown)[3]) const;
+  /// Whether there is a picture in it, so that it is no line along a row.
+  bool has_picture() const { return !scene_->background.empty() && scene_->background[0].picture != kNone; }
   MapTexels texels_of(const Mesh& mesh) const;
   /// Null without.
   const MeshTexture* texture_of_mesh(std::uint32_t mesh) const {
@@ -138,6 +143,7 @@ class LightPaths {
   std::uint32_t hint_[kHints] = {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};  // hits of the sample before
   std::uint32_t horizon_[3] = {}, zenith_[3] = {}, ground_[3] = {};  // fine steps
   LatticeVector up_;                    // of the background, largest component 2^15
+  BackgroundPicture picture_;           // of the background
   LatticeVector direction_;             // of the sample at work
   double direction_length_ = 1;
 };

@@ -78,6 +78,14 @@ bool is_beyond(const DrawnTriangle& triangle, const DrawnTriangle& plane, bool f
   return true;
 }
 
+/// Whether the k-th hit is seen without a mirror on the way.
+bool seen_straight(const PathRecord& record, std::uint32_t k) {
+  for (; record.hit[k].parent != kNoHit; k = record.hit[k].parent) {
+    if (record.hit[k].reflected) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 bool PictureOptics::start(const Shown& shown, const Display& display, Arena& arena) {
@@ -199,13 +207,19 @@ bool PictureOptics::same_surface(const PathHit& a, const PathHit& b) const {
   return mesh != kNone && mesh == geometry_->drawn[b.triangle].mesh && whole_[mesh] != 0;
 }
 
+/// Over how many samples the k-th hit, the background, may be told from the ends.
+std::int32_t PictureOptics::background_reach(const PathRecord& record, std::uint32_t k) const {
+  if (!paths_.has_picture()) return kBackgroundReach;
+  return seen_straight(record, k) ? kLongestReach : 2;
+}
+
 /// Whether the samples between see what both see.
 PictureOptics::Join PictureOptics::join(const PathRecord& a, const PathRecord& b) const {
   if (a.count != b.count || a.count > kMostPathHits || a.sought != b.sought) return Join::kNo;
   bool shines = false;
   for (std::uint32_t k = 0; k < a.count; ++k) {
     if (!same_surface(a.hit[k], b.hit[k])) return Join::kNo;
-    if (a.hit[k].triangle == kNone && b.x - a.x > kBackgroundReach) return Join::kNo;
+    if (a.hit[k].triangle == kNone && b.x - a.x > background_reach(a, k)) return Join::kNo;
     shines = shines || a.hit[k].shines;
   }
   // What was sought though the scanline knew it is met at a grazing angle.
@@ -274,9 +288,11 @@ void PictureOptics::fill(const PathRecord& a, const PathRecord& b) {
       const PathParts& parts = paths_.parts(paths_.optics_at(geometry_->drawn[a.hit[here.parent].triangle]));
       weaken(part[k], here.reflected ? parts.reflect : parts.transmit, channels);
     }
+    if (here.triangle == kNone && add_outdoors(a, k, part[k], n)) continue;
     if (here.triangle == kNone || here.shines) add_line(here.shown, there.shown, part[k], n);
     if (here.triangle == kNone || !here.front) continue;
     const DrawnTriangle& drawn = geometry_->drawn[here.triangle];
+    if (glass_of(*scene_, drawn) != kNone) continue;
     if (drawn.mesh == kNone) {
       std::uint32_t light[3] = {0, 0, 0};
       for (std::uint32_t c = 0; c < channels; ++c) light[c] = paths_.light(drawn.light, c);
@@ -296,6 +312,22 @@ void PictureOptics::fill(const PathRecord& a, const PathRecord& b) {
       sums_[pixel * channels + c] += steps < kWhite ? steps : kWhite;
     }
   }
+}
+
+/// A background with a picture, sample by sample, where glass at most is on the way; false if it isn't that.
+bool PictureOptics::add_outdoors(const PathRecord& a, std::uint32_t hit, const std::uint32_t (&part)[3],
+                                 std::int32_t n) {
+  if (!paths_.has_picture() || !seen_straight(a, hit)) return false;
+  const std::uint32_t channels = scene_->channels;
+  for (std::int32_t k = 1; k < n; ++k) {
+    std::uint32_t shown[3];
+    paths_.background(ray_direction(grid_.direction(a.x + k, row_)), shown);
+    for (std::uint32_t c = 0; c < channels; ++c) {
+      const std::uint32_t all = static_cast<std::uint32_t>(std::uint64_t{shown[c]} * part[c] >> 16);
+      fine_[static_cast<std::uint32_t>(k) * channels + c] += all < kMostFine ? all : kMostFine;
+    }
+  }
+  return true;
 }
 
 /// Adds part times what goes from one value to the other.

@@ -11,7 +11,7 @@
 //
 // Exact: which surfaces traced samples see, and that no others do between, to the two lattice steps to which the
 // points of mirrors are rounded. Approximate: map coordinates between to 1/32 sub-patch, as everywhere; the background
-// as a line over at most 16 samples.
+// as a line over at most 16 samples, or 2 of a picture in a mirror; seen past glass alone, a picture is looked up for each.
 // Only for scenes with such materials or a background. Bytes: light_path.h's; 7,808 for traced samples, 256 a channel,
 // 1 a mesh.
 #pragma once
@@ -31,10 +31,12 @@ namespace shodo {
 class PictureOptics {
  public:
   /// Whether the scene asks for any of this.
-  static bool used(const Scene& scene) { return !scene.optics.empty() || !scene.background.empty(); }
+  static bool used(const Scene& scene) {
+    return scene.effects && !(scene.optics.empty() && scene.background.empty() && scene.glass.empty());
+  }
   /// Luminances are added here before they are shown, so black must be 0: such a scene's maps are made for a display
-  /// from 0 to MAX, and MIN is taken off by the table (fill_display_table). Where brightness rolls off, all samples are
-  /// for add(), which bends the sum.
+  /// from 0 to MAX, and MIN is taken off by the table (fill_display_table). Where brightness rolls off, each sample's
+  /// sum does.
   static Display display_of(const Scene& scene) {
     return used(scene) ? Display{0, scene.display.max_cd_m2} : scene.display;
   }
@@ -53,7 +55,7 @@ class PictureOptics {
   static std::uint64_t bytes(const Scene& scene, const Geometry& geometry);
 
   /// Whether samples that see this side of it first are for add().
-  bool takes(const DrawnTriangle& drawn, bool front) const { return roll_ || paths_.goes_on(drawn, front); }
+  bool takes(const DrawnTriangle& drawn, bool front) const { return paths_.goes_on(drawn, front); }
   /// Adds samples x0 .. x1 - 1 of a row, which see a triangle first, or nothing (kNone), to their pixels' sums.
   void add(std::uint32_t triangle, std::int32_t x0, std::int32_t x1, std::uint32_t row, std::span<std::uint32_t> sums);
 
@@ -64,6 +66,7 @@ class PictureOptics {
 
   enum class Join : std::uint8_t { kNo, kIfMiddleAgrees, kYes };
 
+  std::int32_t background_reach(const PathRecord& record, std::uint32_t k) const;
   void trace(std::int32_t x, PathRecord* record);
   std::uint64_t rolled(std::uint64_t fine) const;
   bool join_up_to(std::int32_t x, std::uint32_t& left);
@@ -72,6 +75,7 @@ class PictureOptics {
   bool nothing_between(const PathRecord& a, const PathRecord& b, std::uint32_t k) const;
   bool agrees(const PathRecord& a, const PathRecord& middle, const PathRecord& b) const;
   void fill(const PathRecord& a, const PathRecord& b);
+  bool add_outdoors(const PathRecord& a, std::uint32_t hit, const std::uint32_t (&part)[3], std::int32_t n);
   void add_line(const std::uint32_t (&from)[3], const std::uint32_t (&to)[3], const std::uint32_t (&part)[3],
                 std::int32_t n);
   void add_map(const PathHit& a, const PathHit& b, const std::uint32_t (&part)[3], std::int32_t n);

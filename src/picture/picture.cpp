@@ -57,6 +57,7 @@ struct Picture {
   Display display;                 // as the scene has it
   PictureOptics optics;
   Scene shown;                     // with optics: the scene on their display
+  RollOff roll;                    // of what isn't rolled off in the maps
   std::span<MeshTexture> textures;  // by mesh; empty in scenes without
   std::span<std::uint8_t> level;   // sRGB of display steps
   std::span<std::uint32_t> sums;   // [pixel * channels + channel]: display steps of a pixel's samples, if it has more
@@ -98,8 +99,7 @@ MapTexels texels_of(const Picture& picture, const Mesh& mesh) {
 void show_light(const Picture& picture, const Light& light, const VisibleSpan& span, const SampleRow& samples) {
   std::uint32_t shown[3] = {0, 0, 0};
   for (std::uint32_t c = 0; c < samples.channels; ++c) {
-    const std::uint32_t steps = luminance_steps(picture.scene->display, light.strength * light.colour.c[c]);
-    shown[c] = steps < kWhite ? steps : kWhite;
+    shown[c] = samples.roll.shown(luminance_steps(picture.scene->display, light.strength * light.colour.c[c]));
   }
   show_plain(samples, span.x0, span.x1, shown);
 }
@@ -116,8 +116,10 @@ void show_span(const Picture& picture, const MapSpan& span, std::uint32_t row, c
   const Mesh& mesh = picture.scene->meshes[carrier.mesh];
   const MapTexels texels = texels_of(picture, mesh);
   if (!picture.textures.empty() && picture.textures[carrier.mesh].texture != kNone) {
+    SampleRow textured = samples;
+    textured.roll = picture.roll;
     return show_textured({*picture.scene, mesh, picture.textures[carrier.mesh], texels, *span.active, carrier,
-                          picture.grid, static_cast<std::int32_t>(row), span.x0, span.x1}, samples);
+                          picture.grid, static_cast<std::int32_t>(row), span.x0, span.x1}, textured);
   }
   MapWalk walk(*span.active, carrier, picture.grid, static_cast<std::int32_t>(row), span.x0, span.x1);
   for (MapPiece piece; walk.next(piece);) show_piece(texels, piece, samples);
@@ -139,7 +141,7 @@ void show_optics(Picture& picture, std::uint32_t triangle, std::int32_t x0, std:
 template <bool kOptics>
 void show_row(Picture& picture, std::uint32_t row) {
   const SampleRow samples{picture.level.data(), picture.rgb.data(), picture.sums.data(), picture.grid.shift,
-                          picture.scene->channels};
+                          picture.scene->channels, kOptics ? picture.roll : RollOff{}};
   VisibleLines& lines = picture.lines;
   lines.begin_row(row);
   MapSpan map;
@@ -222,6 +224,9 @@ Status draw_picture(const Scene& scene, const Geometry& geometry, const Illumina
     picture.shown.display = PictureOptics::display_of(scene);
     picture.scene = &picture.shown;
   }
+  // With optics all is added up from luminance 0 first; without, only textured maps aren't rolled off themselves.
+  picture.roll.on = scene.display.roll;
+  picture.roll.black = picture.with_optics ? luminance_steps(picture.shown.display, scene.display.min_cd_m2) : 0;
   picture.grid = grid_of(*camera, geometry.lattice, options);
   if (!prepare(picture, maps, options, arena)) return arena.refused();
   const std::uint32_t rows = 1u << picture.grid.shift;

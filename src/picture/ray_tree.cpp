@@ -115,7 +115,7 @@ bool RayTree::meets(const LatticeBox& box, const Slabs& slabs, std::int64_t limi
 }
 
 bool RayTree::invisible(const DrawnTriangle& triangle, bool front) const {
-  if (triangle.light == kNone || !scene_->lights[triangle.light].open) return false;
+  if (triangle.light >= scene_->lights.size() || !scene_->lights[triangle.light].open) return false;
   return !front || !scene_->background.empty();
 }
 

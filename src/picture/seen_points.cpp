@@ -40,7 +40,9 @@ Status see_points(const Scene& scene, const Geometry& geometry, const Options& o
   const View view = view_of(*camera, geometry.lattice, options.width, options.height);
   const SampleGrid grid = sample_grid(view, options.width, options.height, options.antialias);
   VisibleLines lines;
-  if (!lines.start(scene, geometry, grid, arena)) return arena.refused();
+  Scene seen = scene;
+  seen.glass = {};  // what is behind it is asked for
+  if (!lines.start(seen, geometry, grid, arena)) return arena.refused();
   for (std::uint32_t y = 0; y < grid.rows; ++y) {
     if (!progress.go_on(Stage::kPicture, y, grid.rows)) {
       Status status;

@@ -75,20 +75,22 @@ struct Course {
   std::int32_t dp_dq;
 };
 
-std::int32_t at_most_white(std::int32_t step) {
-  return step < static_cast<std::int32_t>(kWhite) ? step : static_cast<std::int32_t>(kWhite);
+enum class Bright { kNone, kClipped, kRolled };  // what the samples at hand can need
+
+template <Bright kBright>
+inline std::uint32_t limited(std::int32_t step, const RollOff& roll) {
+  const std::uint32_t steps = static_cast<std::uint32_t>(step);
+  if constexpr (kBright == Bright::kRolled) return roll.shown(steps);
+  return kBright == Bright::kNone || steps < kWhite ? steps : kWhite;
 }
 
 /// Shows samples at once.
-template <std::uint32_t kChannels, bool kBeyondWhite>
+template <std::uint32_t kChannels, Bright kBright>
 void show_samples(Ramp* ramp, const SampleRow& row, std::int32_t x, std::int32_t count) {
   const std::uint8_t* const level = row.level;
   std::uint8_t* rgb = row.rgb + 3 * std::ptrdiff_t{x};
   const std::uint8_t* const end = rgb + 3 * std::ptrdiff_t{count};
-  const auto shown = [&](Ramp& of) {
-    const std::int32_t step = of.next();
-    return level[kBeyondWhite ? at_most_white(step) : step];
-  };
+  const auto shown = [&](Ramp& of) { return level[limited<kBright>(of.next(), row.roll)]; };
   Ramp first = ramp[0], second = ramp[kChannels / 2], third = ramp[kChannels - 1];
   for (; rgb != end; rgb += 3) {
     rgb[0] = shown(first);
@@ -98,14 +100,11 @@ void show_samples(Ramp* ramp, const SampleRow& row, std::int32_t x, std::int32_t
 }
 
 /// Adds samples to the sums of their pixels.
-template <std::uint32_t kChannels, bool kBeyondWhite>
+template <std::uint32_t kChannels, Bright kBright>
 void add_samples(Ramp* ramp, const SampleRow& row, std::int32_t x, std::int32_t count) {
   const std::uint32_t last_in_pixel = (1u << row.shift) - 1;
   std::uint32_t* sum = row.sums + (static_cast<std::uint32_t>(x) >> row.shift) * kChannels;
-  const auto shown = [&](Ramp& of) {
-    const std::int32_t step = of.next();
-    return static_cast<std::uint32_t>(kBeyondWhite ? at_most_white(step) : step);
-  };
+  const auto shown = [&](Ramp& of) { return limited<kBright>(of.next(), row.roll); };
   Ramp first = ramp[0], second = ramp[kChannels / 2], third = ramp[kChannels - 1];
   for (const std::int32_t end = x + count; x < end; ++x) {
     sum[0] += shown(first);
@@ -156,14 +155,20 @@ bool is_white(const Cell& cell, std::uint32_t channel) {
   return low[0] >= kWhite && low[cell.to_u] >= kWhite && high[0] >= kWhite && high[cell.to_u] >= kWhite;
 }
 
-/// Where a part of the map is lighter than white.
+template <std::uint32_t kChannels, Bright kBright>
+void show_or_add(Ramp* ramp, const SampleRow& row, std::int32_t x, std::int32_t count) {
+  row.shift == 0 ? show_samples<kChannels, kBright>(ramp, row, x, count)
+                 : add_samples<kChannels, kBright>(ramp, row, x, count);
+}
+
+/// Where a part of the map is lighter than white, or, where that is rolled off, than half of it.
 template <std::uint32_t kChannels>
-void show_beyond_white(const Cell& cell, Ramp* ramp, const SampleRow& row, std::int32_t x, std::int32_t count) {
+void show_bright(const Cell& cell, Ramp* ramp, const SampleRow& row, std::int32_t x, std::int32_t count) {
+  if (row.roll.on) return show_or_add<kChannels, Bright::kRolled>(ramp, row, x, count);
   bool all_white = true;
   for (std::uint32_t c = 0; c < kChannels && all_white; ++c) all_white = is_white(cell, c);
   if (all_white) return show_plain(row, x, x + count, {kWhite, kWhite, kWhite});
-  row.shift == 0 ? show_samples<kChannels, true>(ramp, row, x, count)
-                 : add_samples<kChannels, true>(ramp, row, x, count);
+  show_or_add<kChannels, Bright::kClipped>(ramp, row, x, count);
 }
 
 /// Where lookups go: to the screen, clipped at white, or to sums as they are.
@@ -184,13 +189,11 @@ inline void show_in_cell(const Cell& cell, const Course& course, const SampleRow
     set(1);
     set(2);
   }
-  if constexpr (kTarget == Target::kSums) return add_samples<kChannels, false>(ramp, row, x, count);
-  if (bits >= static_cast<std::int32_t>(kWhite)) {  // a power of two
-    show_beyond_white<kChannels>(cell, ramp, row, x, count);
-  } else if (row.shift == 0) {
-    show_samples<kChannels, false>(ramp, row, x, count);
+  if constexpr (kTarget == Target::kSums) return add_samples<kChannels, Bright::kNone>(ramp, row, x, count);
+  if (bits >= static_cast<std::int32_t>(row.roll.on ? kWhite / 2 : kWhite)) {  // powers of two
+    show_bright<kChannels>(cell, ramp, row, x, count);
   } else {
-    add_samples<kChannels, false>(ramp, row, x, count);
+    show_or_add<kChannels, Bright::kNone>(ramp, row, x, count);
   }
 }
 
@@ -228,7 +231,7 @@ void show_each(const MapTexels& map, const MapPiece& piece, const SampleRow& row
   for (std::int32_t x = piece.x; x < piece.x + piece.length; ++x) {
     std::uint32_t steps[3];
     lookup.next(steps);
-    for (std::uint32_t c = 0; c < map.channels; ++c) steps[c] = steps[c] < kWhite ? steps[c] : kWhite;
+    for (std::uint32_t c = 0; c < map.channels; ++c) steps[c] = row.roll.shown(steps[c]);
     show_plain(row, x, x + 1, steps);
   }
 }

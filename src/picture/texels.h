@@ -11,6 +11,7 @@
 
 #include <cstdint>
 
+#include "picture/display.h"
 #include "picture/shade.h"
 
 namespace shodo {
@@ -31,6 +32,7 @@ struct SampleRow {
   std::uint32_t* sums = nullptr;        // [pixel * channels + channel]
   std::uint32_t shift = 0;              // 2^shift samples across a pixel; above 0: to the sums
   std::uint32_t channels = 1;
+  RollOff roll;                         // of maps that aren't rolled off themselves
 };
 
 /// One coordinate of a piece from cell to cell, between the centres of texels.
@@ -66,7 +68,7 @@ class PieceLookup {
 /// Samples x0 <= x < x1 show the same; `steps` by channel, at most white.
 void show_plain(const SampleRow& row, std::int32_t x0, std::int32_t x1, const std::uint32_t (&steps)[3]);
 
-/// The samples of a piece, at most white each.
+/// The samples of a piece, at most white each, or rolled off.
 void show_piece(const MapTexels& map, const MapPiece& piece, const SampleRow& row);
 
 /// Adds them to steps[x * channels + channel], beyond white too (optics.h).

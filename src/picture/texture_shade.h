@@ -14,6 +14,7 @@
 
 #include "base/arena.h"
 #include "picture/texels.h"
+#include "picture/texture_lookup.h"
 #include "scene/texture.h"
 
 namespace shodo {
@@ -32,8 +33,7 @@ std::uint64_t mesh_texture_bytes(const Scene& scene);
 /// a 2^bits, towards zero, within +-(2^31 - 1): here doubles become integers, and nowhere else.
 std::int32_t fixed_point(double a, int bits);
 
-inline constexpr std::uint32_t kMostTextureLevels = 14;              // 8192 halves to 1 in 13 steps
-inline constexpr double kCoarsestStep = 1 << kMostTextureLevels;     // whatever the size, the last level
+inline constexpr double kCoarsestStep = 1 << TextureLookup::kMostLevels;  // whatever the size, the last level
 
 /// A sample's place on the map and on the texture.
 struct TexturePlace {
@@ -85,13 +85,6 @@ class TextureShade {
     std::uint32_t s_, t_, step_;
     std::int32_t ds_, dt_, dstep_;
   };
-  struct Axis {
-    std::uint32_t low, high, weight;
-  };
-
-  void look_up(std::uint32_t s, std::uint32_t t, std::uint32_t step, std::uint32_t (&value)[3]) const;
-  void bilinear(std::uint32_t level, std::uint32_t s, std::uint32_t t, std::uint32_t (&value)[3]) const;
-  Axis axis_at(std::uint32_t at, std::uint32_t count) const;
   std::uint32_t shown(std::uint32_t light, std::uint32_t value, std::uint32_t c, std::uint32_t most) const;
   /// A texture that ends at the borders must not begin again there: it keeps 2^-22 of itself away from them.
   double inside(double s) const { return at_.repeats ? s : 0x1p-22 + s * (1 - 0x1p-21); }
@@ -99,9 +92,7 @@ class TextureShade {
   const Texture& texture_;
   const MeshTexture& at_;
   MapTexels map_;
-  std::span<const std::uint16_t> linear_;
-  TextureLevel level_[kMostTextureLevels];
-  std::uint32_t levels_ = 0;
+  TextureLookup lookup_;
   std::int32_t offset_[3] = {0, 0, 0};  // halves of display steps: what is emitted, less MIN
   std::uint32_t mean_[3] = {1, 1, 1};   // of the texture, of 65535
 };

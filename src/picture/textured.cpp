@@ -49,8 +49,10 @@ void show_textured(const TexturedSpan& span, const SampleRow& samples) {
       if (reach == 1 || shade.straight(start, end)) break;
     }
     const std::int32_t length = reach == 0 || x + reach + 1 == span.x1 ? reach + 1 : reach;
-    shade.show_piece(length, reach, start, end, kWhite, [&](std::int32_t k, const std::uint32_t (&steps)[3]) {
-      show_plain(samples, x + k, x + k + 1, steps);
+    shade.show_piece(length, reach, start, end, 65535, [&](std::int32_t k, const std::uint32_t (&steps)[3]) {
+      std::uint32_t shown[3] = {0, 0, 0};
+      for (std::uint32_t c = 0; c < samples.channels; ++c) shown[c] = samples.roll.shown(steps[c]);
+      show_plain(samples, x + k, x + k + 1, shown);
     });
     x += length;
     start = end;

@@ -8,12 +8,19 @@ namespace {
 
 constexpr std::uint32_t kBands = 128;
 
+/// Glass that the scene at hand leaves out, and panes where effects aren't drawn.
+bool left_out(const Scene& scene, const DrawnTriangle& triangle) {
+  if (triangle.mesh != kNone) return !scene.effects && scene.transmits(scene.meshes[triangle.mesh].material);
+  return scene.glass.empty() && glass_of(scene, triangle) != kNone;
+}
+
 /// The rows of a triangle that can be seen; empty for one that can not, and for the back of an opening.
 RowRange visible_rows(const Scene& scene, const DrawnTriangle& triangle, const SampleGrid& grid, const Frame& frame) {
   SeenTriangle seen;
+  if (left_out(scene, triangle)) return {};
   if (frame.leaves_out(triangle)) return {};
   if (!see_triangle(triangle, grid.eye, seen)) return {};
-  if (triangle.light != kNone && !seen.front && scene.lights[triangle.light].open) return {};
+  if (triangle.light < scene.lights.size() && !seen.front && scene.lights[triangle.light].open) return {};
   return rows_of(seen, grid);
 }
 

@@ -37,6 +37,9 @@ Box box_of(const Scene& scene) {
   for (const Plane& plane : scene.planes) {
     for (const Vec3& corner : plane.corners) box.add(corner);
   }
+  for (const Glass& glass : scene.glass) {
+    for (const Vec3& corner : glass.corners) box.add(corner);
+  }
   return box;
 }
 
@@ -76,6 +79,9 @@ void centre_scene(Scene& scene) {
   }
   for (Plane& plane : scene.planes) {
     for (Vec3& corner : plane.corners) corner = box.centred(corner);
+  }
+  for (Glass& glass : scene.glass) {
+    for (Vec3& corner : glass.corners) corner = box.centred(corner);
   }
 }
 

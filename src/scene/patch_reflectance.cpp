@@ -129,20 +129,22 @@ void fill_mesh(const Scene& scene, TexturedMesh& textured, std::span<float> valu
 
 }  // namespace
 
-bool find_patch_reflectances(Scene& scene, Arena& arena) {
-  if (scene.textures.empty()) return true;
+bool find_patch_reflectances(Scene& scene, const Reader& reader, Arena& arena, Status& status) {
   std::size_t meshes = 0, values = 0;
   for (const Mesh& mesh : scene.meshes) {
     if (texture_of(scene, mesh) == kNone) continue;
     ++meshes;
     values += std::size_t{mesh.patch_count()} * scene.channels;
   }
+  if (meshes == 0) return true;
   std::span<TexturedMesh> textured;
   std::span<float> reflectance;
   if (!arena.take("meshes with textures", meshes, textured) ||
       !arena.take("reflectances of their patches", values, reflectance)) {
-    return false;
+    return status = arena.refused(), false;
   }
+  const ArenaScratch texels(arena);
+  if (!keep_texels(scene, reader, arena, status)) return false;
   std::uint32_t first = 0, next = 0;
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
     if (texture_of(scene, scene.meshes[m]) == kNone) continue;
@@ -150,6 +152,7 @@ bool find_patch_reflectances(Scene& scene, Arena& arena) {
     fill_mesh(scene, textured[next++], reflectance);
     first += scene.meshes[m].patch_count() * scene.channels;
   }
+  forget_texels(scene);
   scene.textured = textured;
   scene.patch_reflectance = reflectance;
   return true;

@@ -7,18 +7,21 @@
 // triangle at the middles of its 64 parts.
 // Approximate: the area of a quadrilateral that is no parallelogram isn't even over its map; levels beyond the first
 // are rounded to 8 bits.
-// Bytes: 24 a textured mesh and 4 a channel and patch of it; none in scenes without textures.
+// Bytes: 24 a textured mesh and 4 a channel and patch of it, and the textures' texels while it goes on; none in scenes
+// without textures.
 #pragma once
 
 #include <cstdint>
 
 #include "base/arena.h"
 #include "scene/scene.h"
+#include "shodo/callbacks.h"
+#include "shodo/status.h"
 
 namespace shodo {
 
-/// After channels and counts are decided. False if the arena is too small.
-[[nodiscard]] bool find_patch_reflectances(Scene& scene, Arena& arena);
+/// After channels and counts are decided. Errors: as keep_texels().
+[[nodiscard]] bool find_patch_reflectances(Scene& scene, const Reader& reader, Arena& arena, Status& status);
 
 /// Reflectances of one mesh, by channel.
 class MeshReflectance {

@@ -38,6 +38,18 @@ struct Optics {
 struct Background {
   Rgb zenith, horizon, ground;  // horizon + s^2 (zenith - horizon) above, ground below
   Vec3 up{0, 1, 0};             // unit
+  // A picture far away, in the middle of the direction `towards`, upright against `up`: index of its texture.
+  std::uint32_t picture = kNone;
+  Vec3 towards{0, 0, -1};       // unit
+  double width_degrees = 60;
+  double luminance = 0;         // of its white, cd/m2
+};
+
+/// A pane that is drawn and nothing else: it mirrors, transmits and has highlights as its material does. No light knows
+/// it, so what comes through it is given as it is after the glass.
+struct Glass {
+  std::uint32_t material = 0;
+  Vec3 corners[4];              // front towards (c1-c0) x (c2-c0)
 };
 
 /// One of the two sets of flags of paper 3.1 as a scene file gives them: -1 cleared, +1 set, 0 not given.
@@ -123,12 +135,13 @@ struct Camera {
 /// A material's pattern (scene/texture.h).
 struct Texture {
   std::string_view path;               // relative to the top file's folder
-  std::uint32_t material = 0;
+  std::uint32_t material = 0;          // kNone: the background's picture
   std::uint32_t width = 0, height = 0; // of the picture; 0 if no mesh has the material
   std::uint32_t channels = 1;          // 1 if it is grey
   double size_u = 0, size_v = 0;       // scene units it covers before it is repeated; 0: it covers each mesh once
   double mean[3] = {0, 0, 0};          // linear, of 65535
-  std::span<const std::uint8_t> texels;  // 8-bit sRGB, all levels of detail
+  std::uint8_t lightest[3] = {0, 0, 0};  // texel, 8-bit sRGB
+  std::span<const std::uint8_t> texels;  // 8-bit sRGB, all levels of detail; only while a picture is drawn
 };
 
 /// A mesh whose material has a texture: its patches' reflectances.
@@ -150,6 +163,7 @@ struct Scene {
   Vec3 origin;              // scene units: what was subtracted from every coordinate
   Vec3 half_extent;         // of the box of geometry, planes, point lights and cameras
   Display display;
+  bool effects = true;      // Options::effects; without, there are no textures, no background and no glass here
   std::uint32_t channels = 1;
   std::span<Material> materials;
   std::span<Object> objects;
@@ -160,6 +174,7 @@ struct Scene {
   std::span<Plane> planes;
   std::span<Optics> optics;          // ascending material; mostly none
   std::span<Background> background;  // one or none
+  std::span<Glass> glass;            // mostly none
   std::span<Texture> textures;              // of materials, in their order
   std::span<std::uint16_t> texture_linear;  // of 256 levels of sRGB, 65535 is 1; empty without textures
   std::span<const TexturedMesh> textured;       // ascending (scene/patch_reflectance.h); empty without textures

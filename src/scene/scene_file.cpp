@@ -28,18 +28,27 @@ bool check_cameras(const Scene& scene, Status& status, Wanted& wanted) {
   return true;
 }
 
+/// Without effects the picture is drawn of illuminance maps and mean reflectances alone. What light may pass or be
+/// mirrored by stays, and so does the place of everything: maps are the same both ways, but for textured surfaces,
+/// which reflect their mean everywhere.
+void leave_out_effects(Scene& scene) {
+  scene.effects = false;
+  scene.textures = {};
+  scene.background = {};
+  scene.glass = {};
+}
+
 bool finish(Scene& scene, const Options& options, const Reader& reader, Arena& arena, Status& status,
             Wanted& wanted) {
+  centre_scene(scene);
+  if (!options.effects) leave_out_effects(scene);
   wanted.kind = Wanted::Kind::kTexture;
   if (!load_textures(scene, reader, arena, status, wanted.index)) return false;
   wanted = {};
-  centre_scene(scene);
   place_lights(scene);
   decide_channels(scene);
   if (!check_cameras(scene, status, wanted) || !decide_counts(scene, options, status, wanted)) return false;
-  if (find_patch_reflectances(scene, arena)) return true;
-  status = arena.refused();
-  return false;
+  return find_patch_reflectances(scene, reader, arena, status);
 }
 
 bool load(Words& words, const Options& options, const Reader& reader, Arena& arena, Scene& scene, Status& status) {

@@ -30,13 +30,14 @@ bool SceneStore::take_blocks(Arena& arena) {
          take(arena, "planes", counts_.planes, scene_.planes) &&
          take(arena, "optics", counts_.optics, scene_.optics) &&
          take(arena, "background", counts_.backgrounds, scene_.background) &&
+         take(arena, "glass", counts_.glass, scene_.glass) &&
          take(arena, "textures", counts_.textures, scene_.textures) &&
          take(arena, "names", counts_.name_bytes, names_);
 }
 
 bool SceneStore::begin_storing(Arena& arena, Status& status) {
   const Counts& c = counts_;
-  if (c.materials + c.objects + c.meshes + c.vertices + c.lights + c.cameras + c.planes + c.textures >= kNone) {
+  if (c.materials + c.objects + c.meshes + c.vertices + c.lights + c.cameras + c.planes + c.glass + c.textures >= kNone) {
     status.code = StatusCode::kScene;
     MessageText(status.message, sizeof status.message).add("expected fewer than 2^32 vertices, meshes and lights");
     return false;
@@ -46,6 +47,7 @@ bool SceneStore::begin_storing(Arena& arena, Status& status) {
                             block_bytes<Light>(counts_.lights) + block_bytes<Camera>(counts_.cameras) +
                             block_bytes<Plane>(counts_.planes) + block_bytes<Texture>(counts_.textures) +
                             block_bytes<Optics>(counts_.optics) + block_bytes<Background>(counts_.backgrounds) +
+                            block_bytes<Glass>(counts_.glass) +
                             block_bytes<char>(counts_.name_bytes);
   // One block of everything first: if it is refused, the arena tells the size that would do.
   const Arena::Mark mark = arena.mark();

@@ -15,7 +15,8 @@ struct Statement {
 
 constexpr Statement kStatements[] = {
     {"background", read_background}, {"camera", read_camera}, {"display", read_display},   {"grid", read_grid},
-    {"include", read_include},       {"light", read_light},   {"material", read_material}, {"obj", read_obj},
+    {"glass", read_glass},           {"include", read_include},
+    {"light", read_light},           {"material", read_material}, {"obj", read_obj},
     {"object", read_object},         {"plane", read_plane},   {"quad", read_quad},         {"sub", read_sub},
     {"tri", read_tri},
     {"unit", read_unit},
@@ -134,15 +135,7 @@ bool read_highlight(SceneReading& reading) {
 bool read_texture(SceneReading& reading) {
   Words& words = reading.words;
   MaterialWords& material = value_of<MaterialWords>(reading);
-  if (!words.at_word()) return words.expected("the path of a picture");
-  const Token file = words.take();
-  if (reading.wanted.kind == Wanted::Kind::kTexture && reading.wanted.index == reading.store.counts().textures) {
-    words.place(file);
-    return false;
-  }
-  std::string_view path;
-  if (!words.resolve(file, path)) return false;
-  material.texture.path = reading.store.add_name(path);
+  if (!read_picture_path(reading, material.texture)) return false;
   material.textured = true;
   if (!words.at_word() || words.peek().text != "size") return true;
   words.take();
@@ -158,6 +151,20 @@ constexpr Key kMaterialKeys[] = {{"diffuse", kAlways, kAlways, read_diffuse},
                                  {"highlight", kAlways, 0, read_highlight}};
 
 }  // namespace
+
+bool read_picture_path(SceneReading& reading, Texture& texture) {
+  Words& words = reading.words;
+  if (!words.at_word()) return words.expected("the path of a picture");
+  const Token file = words.take();
+  if (reading.wanted.kind == Wanted::Kind::kTexture && reading.wanted.index == reading.store.counts().textures) {
+    words.place(file);
+    return false;
+  }
+  std::string_view path;
+  if (!words.resolve(file, path)) return false;
+  texture.path = reading.store.add_name(path);
+  return true;
+}
 
 bool read_keys(SceneReading& reading, std::span<const Key> keys, std::uint32_t kind, void* value) {
   Words& words = reading.words;

@@ -54,6 +54,7 @@ bool read_include(SceneReading& reading);
 bool read_material(SceneReading& reading);
 // optics_statements.cpp
 bool read_background(SceneReading& reading);
+bool read_glass(SceneReading& reading);
 // mesh_statements.cpp
 bool read_object(SceneReading& reading);
 bool read_quad(SceneReading& reading);
@@ -86,6 +87,8 @@ T& value_of(SceneReading& reading) {
 /// A lookup of SceneStore's.
 using FindName = std::uint32_t (SceneStore::*)(std::string_view) const;
 
+/// The path of a picture, to be read when all meshes are known.
+bool read_picture_path(SceneReading& reading, Texture& texture);
 /// The name of something that is defined above: its index, 0 while counting. `what` as in "the name of a material".
 bool read_reference(SceneReading& reading, std::string_view what, FindName find, std::uint32_t& index);
 /// A name that nothing of its kind has yet.

@@ -140,18 +140,26 @@ void halve(const TextureLevel& fine, std::uint32_t channels, std::span<const std
   }
 }
 
-/// Texels of every level, and the mean of the first one in linear light.
-void fill_levels(const PortableMap& map, std::span<const std::uint16_t> linear, std::span<std::uint8_t> texels,
-                 Texture& texture) {
+/// The mean in linear light, and the lightest texel, by channel.
+void measure(const PortableMap& map, std::span<const std::uint16_t> linear, Texture& texture) {
   std::uint64_t sum[3] = {0, 0, 0};
   for (std::size_t k = 0; k < map.texels(); ++k) {
-    for (std::uint32_t c = 0; c < texture.channels; ++c) {
-      texels[k * texture.channels + c] = map.at(k, c);
-      sum[c] += linear[map.at(k, c)];
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      const std::uint8_t here = map.at(k, c);
+      sum[c] += linear[here];
+      if (here > texture.lightest[c]) texture.lightest[c] = here;
     }
   }
   for (std::uint32_t c = 0; c < 3; ++c) {
-    texture.mean[c] = static_cast<double>(sum[texture.channels == 1 ? 0 : c]) / static_cast<double>(map.texels());
+    texture.mean[c] = static_cast<double>(sum[c]) / static_cast<double>(map.texels());
+  }
+}
+
+/// Texels of every level.
+void fill_levels(const PortableMap& map, std::span<const std::uint16_t> linear, std::span<std::uint8_t> texels,
+                 Texture& texture) {
+  for (std::size_t k = 0; k < map.texels(); ++k) {
+    for (std::uint32_t c = 0; c < texture.channels; ++c) texels[k * texture.channels + c] = map.at(k, c);
   }
   texture.texels = texels;
   for (std::uint32_t level = 0;; ++level) {
@@ -165,19 +173,12 @@ void fill_levels(const PortableMap& map, std::span<const std::uint16_t> linear, 
 
 /// No texel may reflect more than kLargestReflectance with the material's mean.
 bool check_reflectance(const Scene& scene, const Texture& texture, Status& status) {
+  if (texture.material == kNone) return true;
   constexpr std::string_view kColour[3] = {"red", "green", "blue"};
   const Rgb& diffuse = scene.materials[texture.material].diffuse;
-  std::uint8_t most[3] = {0, 0, 0};
-  const std::size_t texels = std::size_t{texture.width} * texture.height;
-  for (std::size_t k = 0; k < texels; ++k) {
-    for (std::uint32_t c = 0; c < 3; ++c) {
-      const std::uint8_t here = texture.texels[k * texture.channels + (texture.channels == 1 ? 0 : c)];
-      if (here > most[c]) most[c] = here;
-    }
-  }
   for (std::uint32_t c = 0; c < 3; ++c) {
     if (diffuse.c[c] == 0) continue;
-    const double lightest = diffuse.c[c] * scene.texture_linear[most[c]];
+    const double lightest = diffuse.c[c] * scene.texture_linear[texture.lightest[c]];
     if (texture.mean[c] > 0 && lightest <= kLargestReflectance * texture.mean[c]) continue;
     status = {};
     status.code = StatusCode::kScene;
@@ -195,19 +196,28 @@ bool check_reflectance(const Scene& scene, const Texture& texture, Status& statu
 }
 
 bool is_used(const Scene& scene, const Texture& texture) {
+  if (texture.material == kNone) return true;
   for (const Mesh& mesh : scene.meshes) {
     if (mesh.material == texture.material) return true;
   }
   return false;
 }
 
-/// A texture before the k-th that has the same file in memory.
+/// A texture before the k-th that is used and has the same file.
 const Texture* same_file(const Scene& scene, std::uint32_t k) {
   for (std::uint32_t before = 0; before < k; ++before) {
     const Texture& other = scene.textures[before];
-    if (!other.texels.empty() && other.path == scene.textures[k].path) return &other;
+    if (other.width != 0 && other.path == scene.textures[k].path) return &other;
   }
   return nullptr;
+}
+
+bool read_file(const Reader& reader, std::string_view path, PortableMap& map, Status& status) {
+  std::string_view text;
+  if (reader.read == nullptr || !reader.read(reader.context, path, text)) {
+    return refuse(status, "a picture that can be read", path, StatusCode::kFile);
+  }
+  return read_portable_map(text, path, map, status);
 }
 
 bool load_texture(Scene& scene, const Reader& reader, Arena& arena, std::uint32_t k, Status& status) {
@@ -221,25 +231,41 @@ bool load_texture(Scene& scene, const Reader& reader, Arena& arena, std::uint32_
     texture.width = other->width;
     texture.height = other->height;
     texture.channels = other->channels;
-    texture.texels = other->texels;
-    for (std::uint32_t c = 0; c < 3; ++c) texture.mean[c] = other->mean[c];
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      texture.mean[c] = other->mean[c];
+      texture.lightest[c] = other->lightest[c];
+    }
     return check_reflectance(scene, texture, status);
   }
-  std::string_view text;
-  if (reader.read == nullptr || !reader.read(reader.context, texture.path, text)) {
-    return refuse(status, "a picture that can be read", texture.path, StatusCode::kFile);
-  }
   PortableMap map;
-  if (!read_portable_map(text, texture.path, map, status)) return false;
+  if (!read_file(reader, texture.path, map, status)) return false;
   texture.width = map.width;
   texture.height = map.height;
   texture.channels = is_grey(map) ? 1 : 3;
-  std::span<std::uint8_t> texels;
-  if (!arena.take("texture", all_texels(map.width, map.height) * texture.channels, texels)) {
-    return status = arena.refused(), false;
-  }
-  fill_levels(map, scene.texture_linear, texels, texture);
+  measure(map, scene.texture_linear, texture);
   return check_reflectance(scene, texture, status);
+}
+
+std::size_t texel_bytes(const Texture& texture) {
+  return texture.width == 0 ? 0 : all_texels(texture.width, texture.height) * texture.channels;
+}
+
+bool keep_texture(Scene& scene, const Reader& reader, Arena& arena, std::uint32_t k, Status& status) {
+  Texture& texture = scene.textures[k];
+  if (texture.width == 0) return true;
+  if (const Texture* const other = same_file(scene, k); other != nullptr) {
+    texture.texels = other->texels;
+    return true;
+  }
+  PortableMap map;
+  if (!read_file(reader, texture.path, map, status)) return false;
+  if (map.width != texture.width || map.height != texture.height || (texture.channels == 1) != is_grey(map)) {
+    return refuse(status, "the picture that was there when the scene was loaded", texture.path, StatusCode::kFile);
+  }
+  std::span<std::uint8_t> texels;
+  if (!arena.take("texture", texel_bytes(texture), texels)) return status = arena.refused(), false;
+  fill_levels(map, scene.texture_linear, texels, texture);
+  return true;
 }
 
 /// Length of the line of vertices that starts at `first` and goes on in steps of `step`.
@@ -286,6 +312,25 @@ bool load_textures(Scene& scene, const Reader& reader, Arena& arena, Status& sta
     if (!load_texture(scene, reader, arena, at, status)) return false;
   }
   return true;
+}
+
+bool keep_texels(Scene& scene, const Reader& reader, Arena& arena, Status& status) {
+  for (std::uint32_t k = 0; k < scene.textures.size(); ++k) {
+    if (!keep_texture(scene, reader, arena, k, status)) return false;
+  }
+  return true;
+}
+
+void forget_texels(Scene& scene) {
+  for (Texture& texture : scene.textures) texture.texels = {};
+}
+
+std::uint64_t texel_bytes(const Scene& scene) {
+  std::uint64_t sum = 0;
+  for (std::uint32_t k = 0; k < scene.textures.size(); ++k) {
+    if (same_file(scene, k) == nullptr) sum += (texel_bytes(scene.textures[k]) + 7) / 8 * 8;
+  }
+  return sum;
 }
 
 std::uint32_t texture_of(const Scene& scene, const Mesh& mesh) {

@@ -8,8 +8,10 @@
 // of detail halves the one before, rounded down, by exact area means of linear values, down to 1 x 1; levels are kept
 // as 8-bit sRGB, so a level beyond the first is off by half a level of grey. One channel if the picture is grey.
 //
-// Bytes, only for materials that some mesh has, once a file: 88 a texture statement and its path; 512 for the table of
-// linear values; about 4/3 of width height channels.
+// Loading a scene measures its textures and their parts on patches; texels are read again for each picture, so that light
+// has the memory.
+// Bytes, only for materials that some mesh has, once a file: 96 a texture statement and its path; 512 for the table of
+// linear values; while a picture is drawn about 4/3 of width height channels.
 #pragma once
 
 #include <cstdint>
@@ -32,9 +34,14 @@ struct TextureLevel {
 /// Level 0 is the picture; levels beyond the last are the last.
 TextureLevel texture_level(const Texture& texture, std::uint32_t level);
 
-/// Reads the files of all textures whose material is used. On a mistake `at` is the texture, and the status has no
-/// place. Errors: kFile, kScene, kMemory.
+/// Reads the files of all textures whose material is used, and what is to be known of them; texels aren't kept. On a
+/// mistake `at` is the texture, and the status has no place. Errors: kFile, kScene, kMemory.
 bool load_textures(Scene& scene, const Reader& reader, Arena& arena, Status& status, std::uint32_t& at);
+
+/// Reads them again and takes their texels, all levels of detail: texel_bytes(). Errors: kFile, if they changed; kMemory.
+bool keep_texels(Scene& scene, const Reader& reader, Arena& arena, Status& status);
+void forget_texels(Scene& scene);
+std::uint64_t texel_bytes(const Scene& scene);
 
 /// The texture of a mesh's material, kNone if it has none.
 std::uint32_t texture_of(const Scene& scene, const Mesh& mesh);

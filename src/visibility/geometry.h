@@ -31,9 +31,15 @@ struct DrawnTriangle {
   LatticePoint vertex[3];
   std::int32_t u[3] = {0, 0, 0};
   std::int32_t v[3] = {0, 0, 0};
-  std::uint32_t mesh = kNone;   // kNone: a face of an area light
-  std::uint32_t light = kNone;  // the area light
+  std::uint32_t mesh = kNone;   // kNone: a face of an area light, or glass
+  std::uint32_t light = kNone;  // the area light; from lights.size() on glass (glass_of)
 };
+
+/// The glass that a drawn triangle is of, kNone if it is something else.
+inline std::uint32_t glass_of(const Scene& scene, const DrawnTriangle& drawn) {
+  const std::size_t lights = scene.lights.size();
+  return drawn.light == kNone || drawn.light < lights ? kNone : drawn.light - static_cast<std::uint32_t>(lights);
+}
 
 /// A polygon of the file (a cell of a mesh or an area light) and its triangles, contiguous in Geometry::triangles.
 struct PolygonTriangles {
@@ -66,7 +72,7 @@ struct Geometry {
   std::span<std::uint32_t> first_cell;          // per mesh
   std::span<PolygonTriangles> light_triangles;  // per light; none for all but area lights that block
   std::span<Pane> panes;  // ascending triangles; mostly none
-  // Meshes ascending, then area lights (open ones too); a spare block of the arena, so that what comes before the
+  // Meshes ascending, then area lights (open ones too), then glass; a spare block of the arena, so that what comes before the
   // picture may have the memory: place_drawn() then.
   std::span<DrawnTriangle> drawn;
   std::uint32_t drawn_count = 0;
@@ -74,6 +80,7 @@ struct Geometry {
   std::uint32_t inserted = 0;            // T-junction vertices
   std::uint32_t moved = 0;               // vertices moved off a polygon's interior
   std::uint64_t placing_bytes = 0;       // scratch of placing the scene
+  Arena::Mark before_triangles = 0;      // what place_scene() leaves from here on only light needs
 };
 
 /// Places the scene on the lattice, mends T-junctions and near-touching vertices, cuts polygons into triangles.

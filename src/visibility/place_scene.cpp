@@ -71,6 +71,18 @@ Pane pane_of(const Scene& scene, const Geometry& geometry, const PolygonTriangle
   return pane;
 }
 
+/// Glass is drawn after everything else, where it is: it is not mended and mends nothing, so that light doesn't know it.
+void cut_glass(const Scene& scene, const Lattice& lattice, Output& output) {
+  output.mesh = kNone;
+  for (std::uint32_t g = 0; g < scene.glass.size(); ++g) {
+    RingVertex corner[4];
+    for (std::uint32_t k = 0; k < 4; ++k) corner[k].point = even_point(lattice, scene.glass[g].corners[k]);
+    output.light = static_cast<std::uint32_t>(scene.lights.size()) + g;
+    take_drawn(&output, corner[0], corner[1], corner[2]);
+    take_drawn(&output, corner[0], corner[2], corner[3]);
+  }
+}
+
 void cut_polygons(const Scene& scene, const Placement& placement, Output& output, Geometry* geometry) {
   PolygonWalk walk(scene, placement);
   Polygon polygon;
@@ -104,11 +116,14 @@ void cut_polygons(const Scene& scene, const Placement& placement, Output& output
       geometry->cells[geometry->first_cell[polygon.mesh] + polygon.cell] = range;
     }
   }
+  cut_glass(scene, placement.lattice, output);
 }
 
 bool take_results(const Scene& scene, Arena& arena, const Output& counted, Geometry& geometry) {
   std::uint32_t cells = 0;
   for (const Mesh& mesh : scene.meshes) cells += cell_count(mesh);
+  if (!arena.take("lights' points", scene.lights.size(), geometry.light_points)) return false;
+  geometry.before_triangles = arena.mark();
   if (!arena.take("triangles", counted.triangle_count, geometry.triangles)) return false;
   if (!arena.take("panes", counted.pane_count, geometry.panes)) return false;
   if (!arena.take_spare("drawn triangles", counted.drawn_count, geometry.drawn)) return false;
@@ -117,7 +132,6 @@ bool take_results(const Scene& scene, Arena& arena, const Output& counted, Geome
   if (!arena.take("polygons' triangles", cells, geometry.cells)) return false;
   if (!arena.take("lights' triangles", scene.lights.size(), geometry.light_triangles)) return false;
   if (!arena.take("meshes' cells", scene.meshes.size(), geometry.first_cell)) return false;
-  if (!arena.take("lights' points", scene.lights.size(), geometry.light_points)) return false;
   std::uint32_t first = 0;
   for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
     geometry.first_cell[m] = first;

@@ -8,7 +8,7 @@
 #include "picture/picture.h"
 #include "picture/view.h"
 #include "support/optics_twin.h"
-#include "support/scene_from_text.h"
+#include "support/kept_scene.h"
 #include "visibility/geometry.h"
 
 namespace shodo {
@@ -118,7 +118,7 @@ class OpticsScene {
   }
 
   Options options_;
-  LoadedScene loaded_;
+  KeptScene loaded_;
   Geometry geometry_;
   std::vector<float> direct_, ambient_;
   IlluminanceMaps maps_;

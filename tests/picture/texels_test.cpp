@@ -49,7 +49,7 @@ std::vector<std::uint32_t> steps_of(const TestMap& map, const MapPiece& piece) {
     MapPiece until = piece;
     until.x = k % 2;
     until.length = k + 1;
-    show_piece(map.texels, until, {nullptr, nullptr, sums.data(), 1, channels});
+    show_piece(map.texels, until, {nullptr, nullptr, sums.data(), 1, channels, {}});
     const std::size_t pixel = static_cast<std::size_t>(until.x + k) / 2;
     for (std::uint32_t c = 0; c < channels; ++c) all.push_back(sums[pixel * channels + c]);
   }
@@ -118,7 +118,7 @@ TEST(ShowPiece, ShowsTheSameStepsAtOnceAndInSums) {
       piece.x = 6;
       const std::vector<std::uint32_t> steps = steps_of(map, piece);
       std::vector<std::uint8_t> rgb(3 * 140, 77), expected = rgb;
-      show_piece(map.texels, piece, {level.data(), rgb.data(), nullptr, 0, channels});
+      show_piece(map.texels, piece, {level.data(), rgb.data(), nullptr, 0, channels, {}});
       for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(piece.length); ++k) {
         for (std::uint32_t c = 0; c < 3; ++c) {
           expected[3 * (6 + k) + c] = level[steps[k * channels + (channels == 1 ? 0 : c)]];
@@ -127,7 +127,7 @@ TEST(ShowPiece, ShowsTheSameStepsAtOnceAndInSums) {
       EXPECT_EQ(rgb, expected);
       for (const std::uint32_t shift : {1u, 2u}) {
         std::vector<std::uint32_t> sums(140 * channels, 5), added = sums;
-        show_piece(map.texels, piece, {level.data(), nullptr, sums.data(), shift, channels});
+        show_piece(map.texels, piece, {level.data(), nullptr, sums.data(), shift, channels, {}});
         for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(piece.length); ++k) {
           for (std::uint32_t c = 0; c < channels; ++c) {
             added[((6 + k) >> shift) * channels + c] += steps[k * channels + c];

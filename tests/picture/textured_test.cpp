@@ -13,7 +13,7 @@
 #include "picture/view.h"
 #include "support/files.h"
 #include "support/picture_twin.h"
-#include "support/scene_from_text.h"
+#include "support/kept_scene.h"
 #include "support/texture_twin.h"
 
 namespace shodo {
@@ -49,7 +49,7 @@ struct TexturedScene {
     return rgb;
   }
 
-  LoadedScene loaded;
+  KeptScene loaded;
   Options options;
   Geometry geometry;
   std::vector<float> direct, ambient;

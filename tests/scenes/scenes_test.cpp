@@ -26,9 +26,15 @@
 namespace shodo {
 namespace {
 
+FolderReader& data_folder() {
+  static FolderReader files(source_folder() + "/data");
+  return files;
+}
+
 std::string data_scene(const std::string& name) {
-  std::ifstream file(source_folder() + "/data/" + name + ".scn", std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::string_view text;
+  EXPECT_TRUE(data_folder().read(name + ".scn", text)) << name;
+  return std::string(text);
 }
 
 constexpr std::uint32_t kWidth = 160, kHeight = 128;
@@ -40,9 +46,15 @@ Options small_picture() {
   return options;
 }
 
+Options blocks() {
+  Options options = small_picture();
+  options.rules.blocks = true;
+  return options;
+}
+
 struct DataScene : SolvedScene {
   explicit DataScene(const std::string& name, const Options& options = small_picture())
-      : SolvedScene(data_scene(name), options) {}
+      : SolvedScene(data_scene(name), options, std::size_t{64} << 20, data_folder().reader()) {}
 
   std::uint32_t object(std::string_view name) const {
     for (std::uint32_t o = 0; o < model->scene.objects.size(); ++o) {
@@ -206,6 +218,32 @@ TEST(Stair, WhatTheFlightCoversIsHidden) {
   EXPECT_NEAR(floor.hidden_area, 1.1 * 5.3, 0.15 * 1.1 * 5.3);
   EXPECT_LE(floor.hidden_area, 1.1 * 5.3);
   EXPECT_NEAR(floor.area + floor.hidden_area, 3.2 * 6.5, 1e-9);
+}
+
+/// Mirrors, glass, textures, highlights and what stands outside the window, each at its place.
+TEST(Gallery, LooksAsItDid) {
+  DataScene gallery("gallery", blocks());
+  EXPECT_EQ(gallery.model->statistics.polygons_dropped, 0u);
+  expect_golden(gallery, "gallery");
+}
+
+TEST(Studio, LooksAsItDidFromBothSides) {
+  for (const char* const name : {"studio", "garden"}) {
+    DataScene scene(name);
+    expect_golden(scene, name);
+  }
+}
+
+/// Both rooms with all that is drawn in them, and as the paper drew them.
+TEST(Rooms, LookAsTheyDidWithEffectsAndWithout) {
+  for (const std::string name : {"day", "evening"}) {
+    DataScene room(name, blocks());
+    expect_golden(room, name);
+    Options maps = blocks();
+    maps.effects = false;
+    DataScene bare(name, maps);
+    expect_golden(bare, name + "-maps");
+  }
 }
 
 }  // namespace

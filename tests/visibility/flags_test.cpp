@@ -162,6 +162,7 @@ TEST(Flags, RoomsTakeATwentiethAndAFifthOfTheTestsForTheSameBits) {
     Options options;
     options.refine = 0.25;
     options.segments_mixed = 16;
+    options.effects = false;
     FolderReader folder(source_folder() + "/data");
     std::string_view shared, top;
     ASSERT_TRUE(folder.read("room.scn", shared) && folder.read(room + ".scn", top));
