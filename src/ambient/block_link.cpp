@@ -51,7 +51,7 @@ LinkSeries odd_series(const Surfaces& s, const RowSide& side, std::uint32_t j) {
 VisibleFraction fraction_of(std::uint32_t free, std::uint32_t all) {
   const double n = all, f = free;
   if (!(n > 0)) return {0, 0};
-  return {f / n, (f + 0.5) * (n - f + 0.5) / ((n + 1) * (n + 1) * (n + 2))};
+  return {f / n, 0.5 * (f + 0.5) * (n - f + 0.5) / ((n + 1) * (n + 1) * (n + 2))};
 }
 
 }  // namespace
