@@ -47,11 +47,11 @@ LinkSeries odd_series(const Surfaces& s, const RowSide& side, std::uint32_t j) {
 }
 
 /// The visible fraction where `free` of `all` segments are: (f + 1/2) / (n + 1) after Jeffreys, since that all agree
-/// doesn't make them certain.
+/// doesn't make them certain; half of that of independent ones, as their ends are spread evenly.
 VisibleFraction fraction_of(std::uint32_t free, std::uint32_t all) {
   const double n = all, f = free;
   if (!(n > 0)) return {0, 0};
-  return {f / n, (f + 0.5) * (n - f + 0.5) / ((n + 1) * (n + 1) * (n + 2))};
+  return {f / n, 0.5 * (f + 0.5) * (n - f + 0.5) / ((n + 1) * (n + 1) * (n + 2))};
 }
 
 }  // namespace

@@ -10,6 +10,7 @@ namespace {
 constexpr double kMiddleError = 0.25;           // times q^2
 constexpr double kMiddleErrorTriangle = 0.04;  // times q^(3/2)
 constexpr double kClosedError = 1e-8;  // relative
+constexpr double kRough = 0.01;        // tolerance at which the near tier begins with one point
 constexpr double kEqual = 1e-9;  // areas and heights nearer than this count as equal
 
 enum class Facing { kAway, kFully, kCrossing };
@@ -53,7 +54,7 @@ bool looks_at_first(const Patch& i, const Patch& j, double height_of_i, double h
 }
 
 NearFactor near_exchange(const Surfaces& surfaces, std::uint32_t i, std::uint32_t j, bool first, double tolerance,
-                         bool crosses) {
+                         bool crosses, bool rough) {
   const std::uint32_t looking = first ? j : i, seen = first ? i : j;
   NearPatch points, polygon;
   points.piece = surfaces.piece(looking);
@@ -62,7 +63,7 @@ NearFactor near_exchange(const Surfaces& surfaces, std::uint32_t i, std::uint32_
   polygon.piece = surfaces.piece(seen);
   polygon.normal = surfaces.patch(seen).normal;
   polygon.area = surfaces.patch(seen).area;
-  return near_factor(points, polygon, tolerance, crosses, surfaces.flat);
+  return near_factor(points, polygon, tolerance, crosses, surfaces.flat, rough);
 }
 
 PairExchange near_pair(const Surfaces& surfaces, const RowSide& i, std::uint32_t j, double over_i, double over_j,
@@ -74,7 +75,7 @@ PairExchange near_pair(const Surfaces& surfaces, const RowSide& i, std::uint32_t
                                      axis_rectangle(other, surfaces.shape(j), surfaces.flat));
   if (closed >= 0) return {closed < least ? closed : least, kClosedError * closed, crossing};
   const bool first = looks_at_first(*i.patch, other, over_j, over_i);
-  const NearFactor factor = near_exchange(surfaces, i.position, j, first, tolerance * most, crossing);
+  const NearFactor factor = near_exchange(surfaces, i.position, j, first, tolerance * most, crossing, tolerance >= kRough);
   return {factor.exchange < least ? factor.exchange : least, factor.error, crossing};
 }
 

@@ -37,6 +37,7 @@ constexpr std::array<Orbit, 2> kTriangle7{{{0.10128650732345634, 0.1259391805448
 struct Look {
   const Piece* polygon;
   Vec3 normal;
+  std::uint32_t first_rule;
 
   double from(const Vec3& point) const { return point_to_polygon(point, normal, polygon->corner, polygon->corners); }
 };
@@ -120,8 +121,8 @@ double by_rule(const Look& look, const Cell& cell, std::uint32_t rule) {
 /// The best value of a cell that two rules agree on, or the best there is; the difference is the error.
 NearFactor measure(const Look& look, const Cell& cell, double tolerance) {
   const std::uint32_t last = cell.corners == 3 ? 2 : 3;
-  NearFactor part{by_rule(look, cell, 0), 0};
-  for (std::uint32_t rule = 1; rule <= last; ++rule) {
+  NearFactor part{by_rule(look, cell, look.first_rule), 0};
+  for (std::uint32_t rule = look.first_rule + 1; rule <= last; ++rule) {
     const double finer = by_rule(look, cell, rule);
     part = {finer, magnitude(finer - part.exchange)};
     if (part.error <= tolerance) break;
@@ -194,8 +195,9 @@ void add_cut(const Look& look, const Cell& cell, const NearPatch& polygon, doubl
 
 }  // namespace
 
-NearFactor near_factor(const NearPatch& points, const NearPatch& polygon, double tolerance, bool crosses, double flat) {
-  const Look look{&polygon.piece, points.normal};
+NearFactor near_factor(const NearPatch& points, const NearPatch& polygon, double tolerance, bool crosses, double flat,
+                       bool rough) {
+  const Look look{&polygon.piece, points.normal, rough ? 0u : 1u};
   const Vec3* c = points.piece.corner;
   Cell cells[2];
   std::uint32_t count = 1;

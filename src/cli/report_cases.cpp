@@ -132,21 +132,22 @@ std::vector<ReportCase> report_cases(const Options& base, bool mirrors) {
   return cases;
 }
 
-Options reference_options(const Options& base) {
-  constexpr double kTiers = 1e-4;
-  constexpr std::uint32_t kSegmentsFirst = 64, kSegmentsMixed = 256;
+Options reference_options(const Options& base, bool optics) {
+  constexpr double kTiers = 1e-4, kGather = 1e-4, kRefine = 3;
+  const std::uint32_t first = optics ? 64 : 16, mixed = optics ? 256 : 64;
   Options options = base;
   options.flags = FlagMode::kAuto;
   options.rules = {};
-  options.refine = 2 * base.refine;
+  options.refine = kRefine * base.refine;
   options.tiers = std::min(base.tiers, kTiers);
-  options.segments_first = std::max(base.segments_first, kSegmentsFirst);
-  options.segments_mixed = std::max(base.segments_mixed, kSegmentsMixed);
+  options.segments_first = std::max(base.segments_first, first);
+  options.segments_mixed = std::max(base.segments_mixed, mixed);
   options.row_value_bits = 64;
   options.scale_rows = true;
   options.interpolate = true;
   options.mirror_light = true;
-  options.gather = false;
+  options.gather = !optics;
+  options.gather_error = kGather;
   return options;
 }
 

@@ -27,9 +27,10 @@ struct ReportCase {
 /// `mirrors`: the scenes have some, so that the light which these send on is a case of its own.
 std::vector<ReportCase> report_cases(const Options& base, bool mirrors = false);
 
-/// What all are measured against: twice the patch counts along each edge, form factors to 1e-4 (or as the base, if that
-/// is finer), 64 segments a pair, 256 where visibility is mixed (or as the base), 64-bit rows, flags auto, no rules, light over mirrors.
-Options reference_options(const Options& base);
+/// What all are measured against: three times the patch counts along each edge, form factors to 1e-4 (or as the base, if
+/// that is finer), 64-bit rows, no rules; every sub-patch gathers its ambient light. With `optics`, panes or mirrors,
+/// which a gather doesn't know, it is interpolated, by 64 and 256 segments.
+Options reference_options(const Options& base, bool optics = false);
 
 std::string_view flags_text(FlagMode flags);
 /// As --rules takes it: "none", "all", "1,2+", "blocks:0.01".

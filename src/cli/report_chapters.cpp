@@ -144,7 +144,8 @@ std::string reference_text(const SceneResults& scene) {
   const auto number = [](std::uint64_t n) { return shown_text(Cell::number(n)); };
   return "The reference has " + number(s.patches) + " patches and " + number(s.sub_patches) + " sub-patches (refine " +
          number_text(o.refine) + "), tiers " + (o.tiers > 0 ? number_text(o.tiers) : "near") + ", segments " +
-         segments_text(o) + ", 64-bit rows, flags auto, no rules; it took " +
+         segments_text(o) + ", 64-bit rows, flags auto, no rules, " +
+         (o.gather ? "ambient light gathered by each sub-patch" : "ambient light interpolated") + "; it took " +
          shown_text(Cell::count(s.tests_direct + s.tests_ambient)) + " tests and " +
          shown_text(Cell::bytes(s.memory_peak)) + " of memory. Its mean total illuminance is " +
          shown_text(Cell::real(scene.mean_lx)) + " lx. Shadow edges cut " + shown_text(Cell::percent(base.cut_area)) +
@@ -233,7 +234,7 @@ void add_speed_chapter(Document& document, const std::vector<SceneResults>& scen
       "the reference's direct light on the pieces in it differs by more than 25 % of the largest of them and by more "
       "than 2 % of the mean total illuminance. The picture's error is in grey levels, 0 to 255, over all channels, "
       "against the reference's picture. A few places next to lamps can hold most of a root mean square: the best 99 % "
-      "of the area have a column of their own. Cases with refine 2 have the direct light of the reference itself.");
+      "of the area have a column of their own.");
   document.paragraph(
       "A case is efficient if no other is both cheaper and better: S in segments, T in tests, F in form factors, B in "
       "bytes of rows, all of the ambient stage against the ambient error, and P in all tests against the picture. In "

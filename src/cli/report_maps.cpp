@@ -89,10 +89,10 @@ std::uint32_t piece_around(std::uint32_t k, const PieceIndex& small, std::uint64
 }
 
 /// Each piece of `target` is divided in kDivisions^2 equal ones, each of which takes the value around its centre. That
-/// is the area mean exactly where one count is 1, 2 or 4 times the other.
+/// is the area mean exactly where one count is 1, 2, 3, 4, 6 or 12 times the other.
 void bring_triangle(const MapCopy& from, const MeshGrid& source, const MeshGrid& target, double cut_above,
                     ComparedMap& map) {
-  constexpr std::uint32_t kDivisions = 4;
+  constexpr std::uint32_t kDivisions = 12;
   const std::uint32_t k = target.width, fine = kDivisions * k;
   const double part = static_cast<double>(source.width) * source.width / (static_cast<double>(fine) * fine);
   for (std::uint32_t piece = 0; piece < k * k; ++piece) {

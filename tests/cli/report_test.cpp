@@ -336,13 +336,21 @@ TEST(ReportCases, TheReferenceIsNoCoarserThanTheBase) {
   base.segments_mixed = 256;
   base.flags = FlagMode::kOff;
   const Options reference = reference_options(base);
-  EXPECT_EQ(reference.refine, 6);
+  EXPECT_EQ(reference.refine, 9);
   EXPECT_EQ(reference.tiers, 1e-6);
   EXPECT_EQ(reference.segments_first, 256u);
   EXPECT_EQ(reference.segments_mixed, 256u);
   EXPECT_EQ(reference.flags, FlagMode::kAuto);
   base.tiers = 0;
   EXPECT_EQ(reference_options(base).tiers, 0) << "0 is the contour integral, the finest";
+}
+
+TEST(ReportCases, TheReferenceGathersButThroughPanesAndOverMirrors) {
+  EXPECT_TRUE(reference_options({}).gather);
+  const Options with_optics = reference_options({}, true);
+  EXPECT_FALSE(with_optics.gather);
+  EXPECT_EQ(with_optics.segments_first, 64u);
+  EXPECT_EQ(with_optics.segments_mixed, 256u);
 }
 
 TEST(ReportCases, RulesAreNamedAsTheOptionTakesThem) {

@@ -14,15 +14,15 @@ struct Hashes {
 };
 
 inline constexpr Hashes kHashes[] = {
-    {"box", 0x35b3735f888ace3f, 0x6f39f1d73d03a684},
+    {"box", 0x915a524483e3786e, 0xe885b5d2cc38959f},
     {"sun", 0x9e54c6cd4147ac22, 0x6973181985d668a5},
-    {"shapes", 0xc9b1c550f33e0033, 0x6bae46df3570df52},
-    {"rules", 0x6273541003762f78, 0xd3c6e30876d572e4},
-    {"rule2+", 0xc036a9ed51588182, 0x30775391f7383ca3},
-    {"blocks", 0x485e08abbc151a6c, 0xa4c44fd442a504a2},
-    {"planes", 0xd968bcb115f4acf7, 0x0705705b6ae7d01e},
-    {"textures", 0x3063e98ba3ebcbb0, 0x9a330aa220930530},
-    {"day", 0x60290db258792d37, 0x25b496fffed0b151},
+    {"shapes", 0xbe116337c4344440, 0x4564159a356e8e54},
+    {"rules", 0x32a380f0ed61f205, 0x74822eaf9d05b3d3},
+    {"rule2+", 0xf0576b2d5e26b869, 0xa52898c5ff55a8bd},
+    {"blocks", 0x09a543aeb2e22008, 0x1e483c3b7cc910c1},
+    {"planes", 0x46d06a62b9397f3a, 0x9cf3347e51215359},
+    {"textures", 0xd59f1eab32955471, 0x9a330aa220930530},
+    {"day", 0xe27ad23c906dbb46, 0xcecfa2330786fde9},
 };
 
 }  // namespace machines
