@@ -21,8 +21,9 @@ inline constexpr Hashes kHashes[] = {
     {"rule2+", 0x81936dfec66a794b, 0x30775391f7383ca3},
     {"blocks", 0x5893e099251dbb4a, 0x36c68ca7622121c4},
     {"planes", 0x3d41118a6a492842, 0x0705705b6ae7d01e},
-    {"textures", 0x32f677bba978abff, 0xe903ee013f3ff48c},
-    {"day", 0xdad13cb4bf5236a9, 0xc93fbed20444a7d0},
+    {"textures", 0x62baca3b71e1a2c1, 0x89a34cb4338ce487},
+    {"glass", 0x30197b0573f5e29a, 0xecf67a77144a2a16},
+    {"day", 0x624cae61a97d03e7, 0x8471f9cef3d9e601},
 };
 
 }  // namespace machines
