@@ -1,7 +1,5 @@
 #include "picture/texture_shade.h"
 
-#include <bit>
-
 #include "picture/display.h"
 #include "scene/mesh.h"
 
@@ -97,67 +95,5 @@ TextureShade::Course::Course(const TextureShade& shade, std::int32_t reach, cons
       ds_(fixed_point((end.s - start.s) * share_of(reach), 32)),
       dt_(fixed_point((end.t - start.t) * share_of(reach), 32)),
       dstep_(fixed_point((end.step - start.step) * share_of(reach), 16)) {}
-
-void TextureShade::Course::next(std::uint32_t (&steps)[3], std::uint32_t most) {
-  std::uint32_t value[3];
-  light_.next(steps);
-  shade_.look_up(s_, t_, step_, value);
-  for (std::uint32_t c = 0; c < shade_.map_.channels; ++c) {
-    steps[c] = shade_.shown(steps[c], value[shade_.texture_.channels == 1 ? 0 : c], c, most);
-  }
-  s_ += static_cast<std::uint32_t>(ds_);
-  t_ += static_cast<std::uint32_t>(dt_);
-  step_ += static_cast<std::uint32_t>(dstep_);
-}
-
-/// Linear, of 65535. `step`: texels of level 0 a sample, 16.16.
-void TextureShade::look_up(std::uint32_t s, std::uint32_t t, std::uint32_t step, std::uint32_t (&value)[3]) const {
-  std::uint32_t level = 0, weight = 0;
-  if (step > 65536) {
-    level = static_cast<std::uint32_t>(std::bit_width(step)) - 17;
-    weight = step >> (level + 8) & 255;
-  }
-  if (level >= levels_ - 1) level = levels_ - 1, weight = 0;
-  bilinear(level, s, t, value);
-  if (weight == 0) return;
-  std::uint32_t coarse[3];
-  bilinear(level + 1, s, t, coarse);
-  for (std::uint32_t c = 0; c < texture_.channels; ++c) {
-    value[c] = (value[c] * (256 - weight) + coarse[c] * weight) >> 8;
-  }
-}
-
-TextureShade::Axis TextureShade::axis_at(std::uint32_t at, std::uint32_t count) const {
-  const std::int64_t place = static_cast<std::int64_t>(std::uint64_t{at} * count >> 16) - 32768;
-  const std::int32_t low = static_cast<std::int32_t>(place >> 16), last = static_cast<std::int32_t>(count) - 1;
-  const std::uint32_t weight = static_cast<std::uint32_t>(place >> 8 & 255);
-  const auto texel = [&](std::int32_t k) {
-    if (k < 0) return static_cast<std::uint32_t>(at_.repeats ? last : 0);
-    if (k > last) return static_cast<std::uint32_t>(at_.repeats ? 0 : last);
-    return static_cast<std::uint32_t>(k);
-  };
-  return {texel(low), texel(low + 1), weight};
-}
-
-void TextureShade::bilinear(std::uint32_t of, std::uint32_t s, std::uint32_t t, std::uint32_t (&value)[3]) const {
-  const TextureLevel& level = level_[of];
-  const std::uint32_t channels = texture_.channels;
-  const Axis x = axis_at(s, level.width), y = axis_at(t, level.height);
-  const std::uint8_t* const low = level.texel + std::size_t{y.low} * level.width * channels;
-  const std::uint8_t* const high = level.texel + std::size_t{y.high} * level.width * channels;
-  for (std::uint32_t c = 0; c < channels; ++c) {
-    const auto along = [&](const std::uint8_t* row) {
-      return linear_[row[x.low * channels + c]] * (256 - x.weight) + linear_[row[x.high * channels + c]] * x.weight;
-    };
-    value[c] = (along(low) * (256 - y.weight) + along(high) * y.weight) >> 16;
-  }
-}
-
-/// Display steps of reflected light `light`.
-std::uint32_t TextureShade::shown(std::uint32_t light, std::uint32_t value, std::uint32_t c, std::uint32_t most) const {
-  const std::uint32_t reflected = (light * value + mean_[c] / 2) / mean_[c];  // below 2^32: 65535^2 + 32767
-  const std::int64_t steps = std::int64_t{reflected} + 2 * std::int64_t{offset_[c]};
-  return steps < 0 ? 0 : steps > most ? most : static_cast<std::uint32_t>(steps);
-}
 
 }  // namespace shodo
