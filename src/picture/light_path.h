@@ -14,7 +14,7 @@
 // Exact: what a ray meets, and in which order. Approximate: its direction, rounded to 2^-20 (1/1000 pixel), the point
 // where a mirror sends it on (two lattice steps), parts to 1/65536. Luminances are sums of integers: display steps with
 // 8 more bits. A ray whose part is below 1/65536 ends, and so does one after kMostReflections: black.
-// Bytes: ray_tree.h's, highlight.h's, 24 an optics, 4 a light and channel, 7,168 for waiting rays.
+// Bytes: ray_tree.h's, highlight.h's, 24 an optics, 4 a light and channel, 6,656 for waiting rays.
 #pragma once
 
 #include <cstdint>

@@ -8,7 +8,10 @@ namespace {
 
 constexpr double kTolerance = 1.0 / 32;           // sub-patches, as in shade.h
 constexpr std::uint32_t kMostFine = 1u << 28;     // of one surface between samples: 128 times white
-constexpr std::uint32_t kDisagrees = 64;          // fine steps, and 1/256 of the value, by which a highlight may bend
+// By how much a highlight may bend: a step, and 1/64 of its value. It is then filled by two lines, which are off by a
+// quarter of that.
+constexpr std::uint32_t kBends = 1u << kFineBits;
+constexpr double kBendsOf = 1.0 / 64;
 
 double distance(double a, double b) { return a < b ? b - a : a - b; }
 
@@ -269,7 +272,7 @@ bool PictureOptics::agrees(const PathRecord& a, const PathRecord& middle, const 
     if (!a.hit[k].shines) continue;
     for (std::uint32_t c = 0; c < scene_->channels; ++c) {
       const double from = a.hit[k].shown[c], to = b.hit[k].shown[c], found = middle.hit[k].shown[c];
-      if (distance(from + along * (to - from), found) > kDisagrees + found / 256) return false;
+      if (distance(from + along * (to - from), found) > kBends + kBendsOf * found) return false;
     }
   }
   return true;

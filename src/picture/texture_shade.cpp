@@ -91,23 +91,4 @@ TextureShade::Course::Course(const TextureShade& shade, std::int32_t reach, cons
       dt_(fixed_point((end.t - start.t) * share_of(reach), 32)),
       dstep_(fixed_point((end.step - start.step) * share_of(reach), 16)) {}
 
-void TextureShade::Course::next(std::uint32_t (&steps)[3], std::uint32_t most) {
-  std::uint32_t value[3];
-  light_.next(steps);
-  shade_.lookup_.look_up(s_, t_, step_, value);
-  for (std::uint32_t c = 0; c < shade_.map_.channels; ++c) {
-    steps[c] = shade_.shown(steps[c], value[shade_.texture_.channels == 1 ? 0 : c], c, most);
-  }
-  s_ += static_cast<std::uint32_t>(ds_);
-  t_ += static_cast<std::uint32_t>(dt_);
-  step_ += static_cast<std::uint32_t>(dstep_);
-}
-
-/// Display steps of reflected light `light`.
-std::uint32_t TextureShade::shown(std::uint32_t light, std::uint32_t value, std::uint32_t c, std::uint32_t most) const {
-  const std::uint32_t reflected = (light * value + mean_[c] / 2) / mean_[c];  // below 2^32: 65535^2 + 32767
-  const std::int64_t steps = std::int64_t{reflected} + 2 * std::int64_t{offset_[c]};
-  return steps < 0 ? 0 : steps > most ? most : static_cast<std::uint32_t>(steps);
-}
-
 }  // namespace shodo

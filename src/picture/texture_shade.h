@@ -9,6 +9,7 @@
 // Bytes: 32 a mesh, in scenes with textures; stack 250.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <span>
 
@@ -96,5 +97,27 @@ class TextureShade {
   std::int32_t offset_[3] = {0, 0, 0};  // halves of display steps: what is emitted, less MIN
   std::uint32_t mean_[3] = {1, 1, 1};   // of the texture, of 65535
 };
+
+// What every sample of a textured surface runs through.
+
+/// Display steps of reflected light `light`.
+inline std::uint32_t TextureShade::shown(std::uint32_t light, std::uint32_t value, std::uint32_t c,
+                                         std::uint32_t most) const {
+  const std::uint32_t reflected = (light * value + mean_[c] / 2) / mean_[c];  // below 2^32: 65535^2 + 32767
+  const std::int64_t steps = std::int64_t{reflected} + 2 * std::int64_t{offset_[c]};
+  return steps < 0 ? 0 : steps > most ? most : static_cast<std::uint32_t>(steps);
+}
+
+inline void TextureShade::Course::next(std::uint32_t (&steps)[3], std::uint32_t most) {
+  std::uint32_t value[3];
+  light_.next(steps);
+  shade_.lookup_.look_up(s_, t_, step_, value);
+  for (std::uint32_t c = 0; c < shade_.map_.channels; ++c) {
+    steps[c] = shade_.shown(steps[c], value[shade_.texture_.channels == 1 ? 0 : c], c, most);
+  }
+  s_ += static_cast<std::uint32_t>(ds_);
+  t_ += static_cast<std::uint32_t>(dt_);
+  step_ += static_cast<std::uint32_t>(dstep_);
+}
 
 }  // namespace shodo

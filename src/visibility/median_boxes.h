@@ -1,8 +1,8 @@
 // An implicit tree of boxes over items that are cut at their median: what rays and segments look for items in
 // (visibility/blockers.h, picture/ray_tree.h).
 //
-// Node 0 holds all items; children of node k are 2 k + 1 and 2 k + 2, and the items of a level are shared out evenly, so
-// that a node's range follows from its number. How a range is sorted before it is cut is the caller's.
+// Node 0 holds all items; children of node k are 2 k + 1 and 2 k + 2, and the items of a level are shared out evenly,
+// so that a node's range follows from its number. How a range is sorted before it is cut is the caller's.
 // Bytes: 24 a node, 1 to 2 nodes for each two items.
 #pragma once
 

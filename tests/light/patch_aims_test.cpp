@@ -84,7 +84,7 @@ TEST(PatchAims, FindTheFacetsThatTheTreeFinds) {
       whole[0].include(LatticePoint{kLatticeHalf, kLatticeHalf, kLatticeHalf});
     }
     const LatticeVector sun = lattice_direction({random.signed_unit(), random.signed_unit(), random.unit()});
-    aims.start(patch);
+    aims.start(patch, false);
     for (int s = 0; s < 12; ++s) {
       LatticeBox from = part_of(random, patch);
       if (s % 4 == 3) from.include(LatticePoint{patch.high[0] + 1, from.low[1], from.low[2]});  // leaves the patch
@@ -110,7 +110,7 @@ TEST(PatchAims, WithFlagsOffKnowNothing) {
   PatchAims aims(off);
   ASSERT_TRUE(aims.take(scene.arena, 1));
   const LatticeBox box = box_about(random, 1000, 0);
-  aims.start(box);
+  aims.start(box, false);
   EXPECT_TRUE(aims.towards(0, {}, box, box, box).any_triangle);
   EXPECT_FALSE(aims.towards(0, {}, box, box, box).clear());
 }

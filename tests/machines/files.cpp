@@ -13,6 +13,7 @@ COMPILED_IN(file_shapes, "tests/cli/scenes/shapes.scn");
 COMPILED_IN(file_planes, "tests/cli/scenes/planes.scn");
 COMPILED_IN(file_textures, "tests/cli/scenes/textures.scn");
 COMPILED_IN(file_tiles, "tests/cli/scenes/tiles.ppm");
+COMPILED_IN(file_glass, "tests/cli/scenes/glass.scn");
 COMPILED_IN(file_day, "data/day.scn");
 COMPILED_IN(file_room, "data/room.scn");
 
@@ -33,6 +34,7 @@ constexpr File kFiles[] = {
     {"tests/cli/scenes/planes.scn", file_planes, file_planes_end},
     {"tests/cli/scenes/textures.scn", file_textures, file_textures_end},
     {"tiles.ppm", file_tiles, file_tiles_end},  // as textures.scn calls it
+    {"tests/cli/scenes/glass.scn", file_glass, file_glass_end},
     {"data/day.scn", file_day, file_day_end},
     {"room.scn", file_room, file_room_end},  // as day.scn calls it
 };

@@ -22,6 +22,7 @@ inline constexpr Hashes kHashes[] = {
     {"blocks", 0x09a543aeb2e22008, 0x1e483c3b7cc910c1},
     {"planes", 0x46d06a62b9397f3a, 0x9cf3347e51215359},
     {"textures", 0xd59f1eab32955471, 0x9a330aa220930530},
+    {"glass", 0x30197b0573f5e29a, 0xecf67a77144a2a16},
     {"day", 0xe27ad23c906dbb46, 0xcecfa2330786fde9},
 };
 
