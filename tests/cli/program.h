@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -100,6 +101,7 @@ class Running {
     const std::string program = program_path();
     process_ = fork();
     if (process_ != 0) return;
+    signal(SIGINT, SIG_DFL);  // a shell starts background jobs with it ignored, which stays
     if (!folder.empty() && chdir(folder.c_str()) != 0) _exit(126);
     redirect(STDOUT_FILENO, out_);
     redirect(STDERR_FILENO, err_);
