@@ -241,8 +241,8 @@ Status light_directly(const Scene& scene, const Geometry& geometry, std::span<co
   }
   const ArenaScratch scratch(arena);
   const IntersectorScratch seeking(intersector);
-  if (!intersector.start(arena, Facets::kWhole) || !intersector.take_masks(arena)) return arena.refused();
-  Sources sources(scene, geometry, intersector, 4 * options.tiers);
+  if (!intersector.start(arena, Rectangles::kWhole) || !intersector.take_masks(arena)) return arena.refused();
+  Sources sources(scene, geometry, intersector, options.tiers);
   const Status status = sources.prepare(arena);
   if (!status.done()) return status;
   MirrorLight mirrors(sources);

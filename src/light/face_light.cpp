@@ -66,10 +66,10 @@ FaceLight::Tier FaceLight::tier_of(const SubPatchView& view, Face& face) const {
   face.below = above < emitter.radius;
   if (face.below || front < view.radius) return Tier::kNear;
   const double q = (4.0 / 3) * (emitter.radius * emitter.radius + view.radius * view.radius) / squared;
-  if (q <= tiers_) return Tier::kFar;
-  if (!emitter.is_area() && kMiddleError * q * q <= tiers_) return Tier::kMiddle;
+  if (q <= allowed()) return Tier::kFar;
+  if (!emitter.is_area() && kMiddleError * q * q <= allowed()) return Tier::kMiddle;
   const double both = emitter.radius * view.radius / squared;
-  return kScaledError * both * both <= tiers_ ? Tier::kScaled : Tier::kNear;
+  return kScaledError * both * both <= allowed() ? Tier::kScaled : Tier::kNear;
 }
 
 /// From the sub-patch's centre, over the face's Gauss points.
@@ -330,7 +330,7 @@ void FaceLight::look_at_faces(const SubPatchView& view, const ReceiverGroup& gro
 FaceLight::Tier FaceLight::tier_at(double distance, const Emitter& emitter) const {
   if (emitter.is_area() || !(distance > 0)) return Tier::kNear;
   const double q = (4.0 / 3) * (emitter.radius * emitter.radius) / (distance * distance);
-  return q <= tiers_ ? Tier::kFar : kMiddleError * q * q <= tiers_ ? Tier::kMiddle : Tier::kNear;
+  return q <= allowed() ? Tier::kFar : kMiddleError * q * q <= allowed() ? Tier::kMiddle : Tier::kNear;
 }
 
 double FaceLight::factor_at(const Vec3& point, const Receiver& receiver, std::uint32_t first, std::uint32_t count,

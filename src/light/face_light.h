@@ -1,6 +1,6 @@
 // How much of an area or polyhedral light some samples receive (paper 2.1): E = pi L F, Lambertian faces.
 //
-// F, the form factor from a sample to a face, has four tiers by the error allowed (as the ambient stage: --tiers), with
+// F, the form factor from a sample to a face, has four tiers by the error allowed (four times --tiers), with
 // q = (s_p^2 + s_e^2) / (3 d^2), s twice the radii of sub-patch and face and d the distance of their centres:
 //
 //     far      kernel cos cos / (pi r^2) A, from the sub-patch's centre to the face's: error about q
@@ -77,6 +77,9 @@ class FaceLight {
                    std::uint32_t count) const;
 
  private:
+  /// Four times --tiers: the segments' own error is larger by far (doc/report.md).
+  double allowed() const { return 4 * tiers_; }
+
   enum class Tier : std::uint8_t { kNothing, kFar, kMiddle, kScaled, kNear };
   struct Face;
   struct Batch;

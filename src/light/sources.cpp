@@ -8,7 +8,7 @@ namespace shodo {
 namespace {
 
 /// A patch is as far from a light as so many of its own radii, or more, if its factors are interpolated.
-constexpr double kFieldRadii = 3;
+constexpr double kFieldRadii = 4;
 
 Vec3 unit_of(const LatticeVector& v) {
   return normalised({static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)});

@@ -76,7 +76,7 @@ class SubPatch {
       }
     }
     add_fine();
-    if (!lit_ && !fine_.used) sum_.hidden = all_hidden();
+    if (!reached_ && !fine_.used) sum_.hidden = all_hidden();
     return sum_;
   }
 
@@ -111,7 +111,8 @@ class SubPatch {
   ReceiverGroup gauss_, centre_;  // likewise
   Fine fine_;
   SubPatchLight sum_;
-  bool lit_ = false;  // some light reaches all probes
+  bool reached_ = false;  // some light was found the same all over
+  bool lit_ = false;      // and nothing was in its way: no sample is hidden
 };
 
 /// Weights: corner samples lie at 3/4 of the way from the centre, and the second moment of the piece has to come out:
@@ -283,7 +284,10 @@ void SubPatch::add_uniform(std::uint32_t l, const Received* received, const doub
   }
   for (std::uint32_t c = 0; c < channels(); ++c) sum_.lux[c] += colour(l, c) * lux;
   sum_.light_factor += factor;
-  lit_ = lit_ || lux > 0;
+  bool whole = lux > 0;
+  for (std::uint32_t k = 0; k < count; ++k) whole = whole && received[k].visible == 1;
+  reached_ = reached_ || lux > 0;
+  lit_ = lit_ || whole;
 }
 
 void SubPatch::add_to_fine(std::uint32_t l, std::uint32_t k, const Received& received, double correction) {

@@ -45,11 +45,29 @@ LatticeBox facet_box(std::span<const Triangle> triangles, bool& tilted) {
 }
 
 bool fill_box(std::span<const Triangle> triangles, const LatticeBox& box) {
+  if (triangles.size() != 2) return false;
+  const int axis = box.low[0] > box.high[0] ? 0 : box.low[1] > box.high[1] ? 1 : 2;
+  const int u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
+  std::uint32_t corners[2] = {0, 0};  // bit 0 .. 3: low or high along u and v
+  for (std::uint32_t k = 0; k < 2; ++k) {
+    for (const LatticePoint* corner : {&triangles[k].a, &triangles[k].b, &triangles[k].c}) {
+      const std::int32_t at[3] = {corner->x, corner->y, corner->z};
+      const bool low_u = at[u] == box.low[u], low_v = at[v] == box.low[v];
+      if (!(low_u || at[u] == box.high[u]) || !(low_v || at[v] == box.high[v])) return false;
+      corners[k] |= std::uint32_t{1} << ((low_u ? 0 : 1) + (low_v ? 0 : 2));
+    }
+  }
+  // Two opposite corners are left out, and neither triangle leaves out both.
+  const std::uint32_t first = ~corners[0] & 15, second = ~corners[1] & 15, both = first | second;
+  return (both == 6 || both == 9) && first != both && second != both;
+}
+
+bool cover_box(std::span<const Triangle> polygon, const LatticeBox& box) {
   const int axis = box.low[0] > box.high[0] ? 0 : box.low[1] > box.high[1] ? 1 : 2;
   const int u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
   std::int64_t area = 0;  // twice, both
   bool up = false, down = false;
-  for (const Triangle& triangle : triangles) {
+  for (const Triangle& triangle : polygon) {
     const std::int64_t n = triangle.n.x + triangle.n.y + triangle.n.z;  // two are zero
     up = up || n > 0;
     down = down || n < 0;
@@ -65,7 +83,7 @@ std::uint32_t Blockers::facet_count(const Geometry& geometry) {
   return count;
 }
 
-std::uint32_t Blockers::add_facets(const Geometry& geometry, const PolygonTriangles& polygon, Facets facets,
+std::uint32_t Blockers::add_facets(const Geometry& geometry, const PolygonTriangles& polygon, Rectangles rectangles,
                                    std::uint32_t next) {
   const std::span<const Triangle> all = geometry.triangles.subspan(polygon.first, polygon.count);
   const auto add = [&](std::uint32_t first, std::uint32_t count) {
@@ -76,25 +94,25 @@ std::uint32_t Blockers::add_facets(const Geometry& geometry, const PolygonTriang
     bool tilted = false;
     facet.box = facet_box(triangles, tilted);
     facet.tilted = !tilted ? 0 : is_parallelogram(triangles) ? 2 : 1;
-    facet.rectangle = !tilted && fill_box(triangles, facet.box) ? 1 : 0;
+    facet.rectangle = !tilted && (count > 2 ? cover_box : fill_box)(triangles, facet.box) ? 1 : 0;
     facet.blocks = 3;
     return facet.rectangle != 0;
   };
-  if (facets == Facets::kWhole && polygon.count > 2 && polygon.count <= UINT8_MAX && add(0, polygon.count)) {
+  if (rectangles == Rectangles::kWhole && polygon.count > 2 && polygon.count <= UINT8_MAX && add(0, polygon.count)) {
     return next + 1;
   }
   for (std::uint32_t k = 0; k < polygon.count; k += 2, ++next) add(k, k + 1 < polygon.count ? 2 : 1);
   return next;
 }
 
-bool Blockers::build(const Geometry& geometry, Arena& arena, Facets facets) {
+bool Blockers::build(const Geometry& geometry, Arena& arena, Rectangles rectangles) {
   const std::uint32_t most = facet_count(geometry);
   if (!arena.take("blockers", most, facets_)) return false;
   if (!arena.take("blockers' boxes", median_nodes(most), nodes_)) return false;
   std::uint32_t count = 0;
   for (const std::span<PolygonTriangles> polygons : {geometry.cells, geometry.light_triangles}) {
     for (const PolygonTriangles& polygon : polygons) {
-      if (!geometry.is_pane(polygon)) count = add_facets(geometry, polygon, facets, count);
+      if (!geometry.is_pane(polygon)) count = add_facets(geometry, polygon, rectangles, count);
     }
   }
   facets_ = facets_.first(count);

@@ -34,11 +34,14 @@ static_assert(sizeof(Facet) == 32);
 
 /// The box around a facet; flat ones get low = plane + 1, high = plane - 1 along the axis to which they are square.
 LatticeBox facet_box(std::span<const Triangle> triangles, bool& tilted);
-/// Whether triangles of one polygon fill their flat box: they face one way, so none lies on another, and have its area.
+/// Whether two triangles fill their flat box: every corner of theirs is one of the box, and they leave out opposite
+/// ones.
 bool fill_box(std::span<const Triangle> triangles, const LatticeBox& box);
+/// Whether all triangles of a polygon do: they face one way, so none lies on another, and have its area together.
+bool cover_box(std::span<const Triangle> polygon, const LatticeBox& box);
 
 /// What becomes one facet: two triangles at most, or all of a polygon that fill a rectangle.
-enum class Facets : std::uint8_t { kPairs, kWhole };
+enum class Rectangles : std::uint8_t { kCut, kWhole };
 
 /// The ends of segments: lattice points and the box around them.
 struct Ends {
@@ -49,7 +52,7 @@ struct Ends {
 class Blockers {
  public:
   /// False: the arena is too small.
-  bool build(const Geometry& geometry, Arena& arena, Facets facets = Facets::kPairs);
+  bool build(const Geometry& geometry, Arena& arena, Rectangles rectangles = Rectangles::kCut);
   /// Of pairs; of whole rectangles there are fewer.
   static std::uint32_t facet_count(const Geometry& geometry);
   static std::uint64_t bytes(const Geometry& geometry);
@@ -80,7 +83,7 @@ class Blockers {
   }
 
  private:
-  std::uint32_t add_facets(const Geometry& geometry, const PolygonTriangles& polygon, Facets facets,
+  std::uint32_t add_facets(const Geometry& geometry, const PolygonTriangles& polygon, Rectangles rectangles,
                            std::uint32_t next);
   void split(const ItemRange& range);
 

@@ -74,10 +74,10 @@ bool Intersector::take_flags(Arena& arena) {
   return !features::aims(mode_) || flags_.fill(*scene_, mode_ == FlagMode::kScene, arena);
 }
 
-bool Intersector::start(Arena& arena, Facets facets) {
+bool Intersector::start(Arena& arena, Rectangles rectangles) {
   if (!features::aims(mode_)) return true;
   if (!flags_stay_ && !flags_.fill(*scene_, mode_ == FlagMode::kScene, arena)) return false;
-  if (!blockers_.build(*geometry_, arena, facets)) return false;
+  if (!blockers_.build(*geometry_, arena, rectangles)) return false;
   const std::size_t count = blockers_.facets().size();
   if (!arena.take("possible blockers", count, wide_)) return false;
   if (!arena.take("possible blockers of a pair", count, narrow_)) return false;

@@ -5,7 +5,8 @@
 // gets the facets that can come between them (visibility/blockers.h), and most often there are none, so that no segment
 // is needed. Aims are made from the very points at which segments end, so no facet is missed: exact, whatever the
 // order. What blocked last is tried first.
-// Bytes: those of visibility/blockers.h, flags.h and, where asked for, facet_masks.h, and two lists of 4 bytes a facet, from start() to finish().
+// Bytes: those of visibility/blockers.h, flags.h and, where asked for, facet_masks.h, and two lists of 4 bytes a facet,
+// from start() to finish().
 #pragma once
 
 #include <cstdint>
@@ -54,7 +55,7 @@ class Intersector {
 
   /// Builds what finds blockers, as scratch of a stage that calls finish() before the arena is released. False: the
   /// arena is too small.
-  bool start(Arena& arena, Facets facets = Facets::kPairs);
+  bool start(Arena& arena, Rectangles rectangles = Rectangles::kCut);
   void finish();
   /// Whether aims find anything: between start() and finish(), flags not off.
   bool seeking() const { return features::kAims && started_; }

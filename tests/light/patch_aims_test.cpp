@@ -102,6 +102,36 @@ TEST(PatchAims, FindTheFacetsThatTheTreeFinds) {
   EXPECT_GT(longest, 1024u);
 }
 
+/// All of a light, or nothing, is shown only where every single segment says so.
+TEST(PatchAims, ShowAllOfALightOrNothingOnlyWhereEverySegmentDoes) {
+  Random random(2);
+  HandMadeScene scene;
+  build(scene, random);
+  Intersector listed(scene.geometry, scene.scene, FlagMode::kAuto);
+  ASSERT_TRUE(listed.start(scene.arena, Rectangles::kWhole) && listed.take_masks(scene.arena));
+  Intersector off(scene.geometry);
+  PatchAims aims(listed);
+  ASSERT_TRUE(aims.take(scene.arena, 1));
+  int all = 0, nothing = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    const LatticeBox patch = box_about(random, 1 << (4 + random.below(10)), 0);
+    const LatticeBox light = box_about(random, 1 << (4 + random.below(10)), kLatticeHalf);
+    aims.start(patch, true);
+    const Shown shown = aims.shown(0, {}, light);
+    if (shown == Shown::kUnknown) continue;
+    (shown == Shown::kAll ? all : nothing) += 1;
+    for (int s = 0; s < 8; ++s) {
+      const LatticeBox from = part_of(random, patch), to = part_of(random, light);
+      const LatticePoint p{from.low[0] | 1, from.low[1] | 1, from.low[2] | 1};
+      const LatticePoint q{to.low[0] | 1, to.low[1] | 1, to.low[2] | 1};
+      if (!patch.contains(p, 0) || !light.contains(q, 0)) continue;
+      EXPECT_EQ(off.blocked(p, q, {}), shown == Shown::kNothing);
+    }
+  }
+  EXPECT_GT(all, 50);
+  EXPECT_GT(nothing, 5);
+}
+
 TEST(PatchAims, WithFlagsOffKnowNothing) {
   Random random(1);
   HandMadeScene scene;
@@ -110,7 +140,8 @@ TEST(PatchAims, WithFlagsOffKnowNothing) {
   PatchAims aims(off);
   ASSERT_TRUE(aims.take(scene.arena, 1));
   const LatticeBox box = box_about(random, 1000, 0);
-  aims.start(box, false);
+  aims.start(box, true);
+  EXPECT_EQ(aims.shown(0, {}, box), Shown::kUnknown);
   EXPECT_TRUE(aims.towards(0, {}, box, box, box).any_triangle);
   EXPECT_FALSE(aims.towards(0, {}, box, box, box).clear());
 }

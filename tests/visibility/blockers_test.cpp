@@ -142,6 +142,56 @@ TEST(Blockers, WithoutStartAnIntersectorTriesEveryTriangle) {
   EXPECT_FALSE(on.aim(box, box, {}).clear());
 }
 
+/// Along every side of the rectangle the crossing moves one way with each coordinate: the boxes' corners tell all.
+TEST(Blockers, ARectangleHidesAllIfItBlocksTheSegmentsBetweenAllCorners) {
+  Random random(5);
+  int hidden = 0, not_hidden = 0, wrong = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    const int axis = static_cast<int>(random.below(3)), u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
+    LatticePoint corner[4];
+    const std::int32_t plane = 2 * random.between(-200, 200);
+    const std::int32_t low_u = 2 * random.between(-2000, 0), high_u = 2 * random.between(1, 2000);
+    const std::int32_t low_v = 2 * random.between(-2000, 0), high_v = 2 * random.between(1, 2000);
+    for (int k = 0; k < 4; ++k) {
+      std::int32_t at[3];
+      at[axis] = plane;
+      at[u] = k == 1 || k == 2 ? high_u : low_u;
+      at[v] = k >= 2 ? high_v : low_v;
+      corner[k] = {at[0], at[1], at[2]};
+    }
+    const Triangle halves[2] = {triangle_of(corner[0], corner[1], corner[2]),
+                                triangle_of(corner[0], corner[2], corner[3])};
+    const auto box = [&](std::int32_t along) {
+      LatticeBox made;
+      for (int k = 0; k < 3; ++k) {
+        const std::int32_t size = random.below(3) == 0 ? 0 : random.between(0, 1500);
+        made.low[k] = k == axis ? along + random.between(-300, 300) : random.between(-3000, 3000);
+        made.high[k] = made.low[k] + (k == axis ? size / 10 : size);
+      }
+      return made;
+    };
+    const std::int32_t far = random.below(2) == 0 ? 700 : -700;
+    const LatticeBox a = box(plane + far), b = box(plane - far);
+    bool all = true;
+    for (int k = 0; k < 64; ++k) {
+      const auto at = [&](const LatticeBox& from, int bits) {
+        return LatticePoint{(bits & 1 ? from.high : from.low)[0], (bits & 2 ? from.high : from.low)[1],
+                            (bits & 4 ? from.high : from.low)[2]};
+      };
+      const LatticePoint p = at(a, k & 7), q = at(b, k >> 3);
+      all = all && (blocks_segment(halves[0], p, q) || blocks_segment(halves[1], p, q));
+    }
+    bool tilted = false;
+    const LatticeBox rectangle = facet_box(halves, tilted);
+    ASSERT_TRUE(fill_box(halves, rectangle));
+    wrong += hides_all(rectangle, a, b) != all ? 1 : 0;
+    (all ? hidden : not_hidden) += 1;
+  }
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(hidden, 1000);
+  EXPECT_GT(not_hidden, 1000);
+}
+
 TEST(Blockers, TakesTheBytesThatItSays) {
   HandMadeScene scene;
   build_clutter(scene, 2);

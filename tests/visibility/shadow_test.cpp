@@ -15,9 +15,11 @@ constexpr std::int32_t kHalf = 1 << 19;
 
 std::int32_t clamped(std::int64_t x) { return static_cast<std::int32_t>(x < -kHalf ? -kHalf : x > kHalf ? kHalf : x); }
 
-/// A rectangle square to an axis, a trapezoid in such a plane, or any two triangles with a common side; also slivers.
+/// A rectangle square to an axis, a trapezoid in such a plane, any two triangles with a common side, one, or a
+/// parallelogram; also slivers.
 void make_facet(Random& random, std::uint32_t kind, std::vector<Triangle>& triangles, Facet& facet) {
-  const std::int32_t reach = random.below(3) == 0 ? 60 : random.below(2) == 0 ? 5000 : kHalf;
+  const std::int32_t most = kind == 4 ? kHalf / 4 : kHalf;
+  const std::int32_t reach = random.below(3) == 0 ? 60 : random.below(2) == 0 ? 5000 : most;
   LatticePoint v[4];
   for (LatticePoint& p : v) p = even_within(random, reach);
   if (kind < 2) {
@@ -35,10 +37,14 @@ void make_facet(Random& random, std::uint32_t kind, std::vector<Triangle>& trian
   }
   triangles = {triangle_of(v[0], v[1], v[2]), triangle_of(v[0], v[2], v[3])};
   if (kind == 3) triangles.pop_back();
+  if (kind == 4) {
+    v[3] = {v[0].x + v[2].x - v[1].x, v[0].y + v[2].y - v[1].y, v[0].z + v[2].z - v[1].z};
+    triangles = {triangle_of(v[0], v[1], v[2]), triangle_of(v[2], v[3], v[0])};
+  }
   bool tilted = false;
   facet.box = facet_box(triangles, tilted);
   facet.count = static_cast<std::uint8_t>(triangles.size());
-  facet.tilted = tilted ? 1 : 0;
+  facet.tilted = !tilted ? 0 : kind == 4 ? 2 : 1;
   facet.rectangle = !tilted && fill_box(triangles, facet.box) ? 1 : 0;
 }
 
@@ -61,7 +67,7 @@ TEST(Shadow, OfAFacetIsThatOfItsTrianglesSegmentBySegment) {
   for (int trial = 0; trial < 60000; ++trial) {
     std::vector<Triangle> triangles;
     Facet facet;
-    make_facet(random, random.below(4), triangles, facet);
+    make_facet(random, random.below(5), triangles, facet);
     rectangles += facet.rectangle;
     const LatticePoint p = even_within(random, random.below(2) == 0 ? 8000 : kHalf);
     const std::uint32_t count = 1 + random.below(kMostEnds);
