@@ -20,7 +20,7 @@ constexpr std::int32_t kMoved = 16;   // samples are moved in front of their sur
 
 void GatherGroup::add(GatherPoint& point, const double* radiosity, double factor) const {
   for (std::uint32_t c = 0; c < scene_.surfaces.scene->channels; ++c) point.lx[c] += factor * radiosity[c];
-  point.factor += factor;
+  point.factor += solid_ * factor;
 }
 
 void GatherGroup::add_close(GatherPoint& point, std::uint32_t k, double weight) const {
@@ -168,13 +168,16 @@ double GatherGroup::group_visible(const Look& look, std::uint32_t segments) {
   const std::uint32_t last = scene_.surfaces.cached_points - 1, turn = gather_hash(node_, look.node);
   const std::uint32_t points = static_cast<std::uint32_t>(points_.size());
   std::uint32_t free = 0, at = turn % points;
+  double passed = 0;
   for (std::uint32_t k = 0; k < segments; ++k) {
     GatherPoint& point = points_[at];
     const std::uint32_t origin = (turn / 16 + k) & 3;
-    if (scene_.lists.blocked(point.from[origin], samples[(turn / 64 + 3 * k) & last])) {
+    const LatticePoint& end = samples[(turn / 64 + 3 * k) & last];
+    if (scene_.lists.blocked(point.from[origin], end)) {
       point.lost[origin] += static_cast<float>(look.factor);
     } else {
       ++free;
+      passed += scene_.lists.pass(point.from[origin], end);
       point.free |= 1u << origin;
     }
     at += points > 4 ? points / 4 : 1;
@@ -183,25 +186,25 @@ double GatherGroup::group_visible(const Look& look, std::uint32_t segments) {
   }
   const double n = segments, f = free;
   shared_variance_ += look.factor * look.factor * ((f + 0.5) * (n - f + 0.5) / ((n + 1) * (n + 1) * (n + 2)));
-  return f / n;
+  return passed / n;
 }
 
 void GatherGroup::gather_tiny(const Look& look) {
   const Surfaces& s = scene_.surfaces;
   const double area = look.patch->area;
-  const double factor = look.over_i * look.over_j * area / ((kPi * look.squared + area) * look.squared);
+  double factor = look.over_i * look.over_j * area / ((kPi * look.squared + area) * look.squared);
   const std::uint32_t turn = gather_hash(node_, look.node);
   GatherPoint& point = points_[turn % points_.size()];
+  const LatticePoint &from = point.from[turn >> 4 & 3], &to = s.samples(look.node)[turn >> 6 & (s.cached_points - 1)];
   GatherLists::Seen& seen = scene_.lists.seen();
   if (look.bound > kTiniest * error_ || seen == GatherLists::Seen::kNotYet) {
     scene_.lists.aim(look.node);
-    const std::uint32_t origin = turn >> 4 & 3, end = turn >> 6 & (s.cached_points - 1);
-    const bool blocked = scene_.lists.blocked(point.from[origin], s.samples(look.node)[end]);
-    seen = blocked ? GatherLists::Seen::kBlocked : GatherLists::Seen::kFree;
+    seen = scene_.lists.blocked(from, to) ? GatherLists::Seen::kBlocked : GatherLists::Seen::kFree;
   }
   shared_variance_ += factor * factor * 0.0625;
   if (seen == GatherLists::Seen::kBlocked) return;
-  shared_factor_ += factor;
+  factor *= scene_.lists.pass(from, to);
+  shared_factor_ += solid_ * factor;
   for (std::uint32_t c = 0; c < s.scene->channels; ++c) {
     shared_lx_[c] += factor * look.radiosity[c];
   }
@@ -211,8 +214,8 @@ void GatherGroup::gather_linear(const Look& look) {
   const double m2 = reach_ * reach_ / look.squared, alpha = reach_ / look.over_j;
   geometry_error_ += kBendShare * look.factor * (alpha * alpha + 16 * m2);
   const Vec3 slope = look.factor * ((1 / look.over_j) * look.patch->normal + (4 / look.squared) * look.way);
-  shared_factor_ += look.factor;
-  slope_factor_ = slope_factor_ + slope;
+  shared_factor_ += solid_ * look.factor;
+  slope_factor_ = slope_factor_ + solid_ * slope;
   for (std::uint32_t c = 0; c < scene_.surfaces.scene->channels; ++c) {
     shared_lx_[c] += look.factor * look.radiosity[c];
     slope_lx_[c] = slope_lx_[c] + look.radiosity[c] * slope;
@@ -232,6 +235,15 @@ void GatherGroup::gather_each(const Look& look, bool clear, std::uint32_t segmen
     if (!clear) factor *= visible(point, turn, samples, scene_.surfaces.cached_points, segments, factor);
     add(point, look.radiosity, factor);
   }
+}
+
+/// The part of a mesh's directions that is its own, the mean of the channels.
+double GatherGroup::solid_part(const Scene& scene, const Mesh& mesh) {
+  const Optics* const optics = scene.optics_of(mesh.material);
+  if (optics == nullptr) return 1;
+  double passed = 0;
+  for (std::uint32_t c = 0; c < scene.channels; ++c) passed += optics->transmit.c[c];
+  return 1 - passed / scene.channels;
 }
 
 void GatherGroup::place_group(std::uint32_t node) {
@@ -287,6 +299,7 @@ void GatherGroup::gather(std::uint32_t node, std::uint32_t place, std::span<Gath
     if (k == place && s.planar[k] != 0) continue;
     const std::uint32_t end = s.mesh_begin[k + 1];
     scene_.lists.start_object(s.scene->meshes[s.mesh_at[k]].object);
+    solid_ = solid_part(*s.scene, s.scene->meshes[s.mesh_at[k]]);
     for (std::uint32_t j = s.mesh_begin[k]; j < end;) {
       const bool sends = s.root_area[j] > 0 && j != node;
       if (!sends || consider(j) == Step::kDone) {

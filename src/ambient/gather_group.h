@@ -101,6 +101,7 @@ class GatherGroup {
     bool near = false;                            // there is none
   };
 
+  static double solid_part(const Scene& scene, const Mesh& mesh);
   void place_group(std::uint32_t node);
   Step consider(std::uint32_t j);
   bool look_at(std::uint32_t j, Look& look) const;
@@ -130,6 +131,7 @@ class GatherGroup {
   std::span<GatherPoint> points_;
   std::uint32_t node_ = 0;
   Vec3 centre_, normal_;
+  double solid_ = 1;  // of the mesh at work: through a pane one sees what is behind as well
   double error_ = 0;  // that of scene_, more for small patches
   double reach_ = 0;  // of the points' sub-patches, from the centre
   double geometry_error_ = 0;  // of what all points share

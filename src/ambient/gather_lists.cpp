@@ -204,10 +204,27 @@ void GatherLists::split(const LatticeBox& box, std::uint32_t j, std::uint32_t en
   if (fits) part_[parts_++] = {end, first, count};
 }
 
+double GatherLists::pass(const LatticePoint& p, const LatticePoint& q) {
+  if (!intersector_.panes().any()) return 1;
+  const std::uint32_t channels = surfaces_->scene->channels;
+  double sum = 0;
+  for (std::uint32_t c = 0; c < channels; ++c) {
+    intersector_.set_channel(c);
+    sum += intersector_.panes().pass(p, q);
+  }
+  intersector_.set_channel(0);
+  return sum / channels;
+}
+
 bool GatherLists::clear(const LatticeBox& box, std::uint32_t j) {
+  const bool nothing = narrow(box, j), panes = intersector_.panes().any();
+  return nothing && !(panes && intersector_.panes().between(group_box_, box));
+}
+
+bool GatherLists::narrow(const LatticeBox& box, std::uint32_t j) {
   while (parts_ > 0 && j >= part_[parts_ - 1].end) --parts_;
   std::uint32_t count = 0;
-  const auto narrow = [&](const auto& each) {
+  const auto keep = [&](const auto& each) {
     LeanShaft shaft(group_box_, box);
     const std::span<const Facet> all = facets();
     each([&](std::uint32_t f) {
@@ -217,13 +234,13 @@ bool GatherLists::clear(const LatticeBox& box, std::uint32_t j) {
   if (parts_ > 0) {
     const Part part = part_[parts_ - 1];
     if (part.count > 0) {
-      narrow([&](auto visit) {
+      keep([&](auto visit) {
         for (std::uint32_t k = 0; k < part.count; ++k) visit(words_[part.first + k]);
       });
     }
   } else {
     if (of_group_[object_].count == kNotYet) find_group_list();
-    if (of_group_[object_].count > 0) narrow([&](auto visit) { visit_group_list(visit); });
+    if (of_group_[object_].count > 0) keep([&](auto visit) { visit_group_list(visit); });
   }
   aim_ = intersector_.seeking() ? Aim{pair_.first(count), false} : Aim{};
   return count == 0;

@@ -44,10 +44,12 @@ class GatherLists {
 
   /// A node is split; its parts lie in `box` and before `end`.
   void split(const LatticeBox& box, std::uint32_t j, std::uint32_t end);
-  /// Aims from the group to `box`, which is part of node j. True if nothing can come between.
+  /// Aims from the group to `box`, which is part of node j. True if nothing can come between, nor weaken.
   bool clear(const LatticeBox& box, std::uint32_t j);
   /// Aims from the group to anywhere in node j, without looking closer.
   void aim(std::uint32_t j);
+  /// The part of light that panes let through, the mean of the channels.
+  double pass(const LatticePoint& p, const LatticePoint& q);
   /// Of what clear() or aim() left.
   bool blocked(const LatticePoint& p, const LatticePoint& q) { return intersector_.blocked(p, q, link_, aim_); }
 
@@ -72,6 +74,7 @@ class GatherLists {
   void visit_group_list(Visit visit);
   std::span<const Facet> facets();
   bool listable() { return facets().size() <= 0x10000; }
+  bool narrow(const LatticeBox& box, std::uint32_t j);
   void find_region_list();
   void find_group_list();
 

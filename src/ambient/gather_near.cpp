@@ -31,19 +31,21 @@ double piece_factor(const Vec3& point, const Vec3& normal, const Piece& piece, b
 double GatherGroup::visible(GatherPoint& point, std::uint32_t turn, const LatticePoint* to, std::uint32_t ends,
                             std::uint32_t segments, double factor) {
   std::uint32_t free = 0, done = 0;
+  double passed = 0;
   for (std::uint32_t most = segments; done < most; ++done) {
     const std::uint32_t origin = (turn + done) & 3, end = (turn / 4 + 3 * done + done / 4) & (ends - 1);
     if (scene_.lists.blocked(point.from[origin], to[end])) {
       point.lost[origin] += static_cast<float>(factor);
     } else {
       ++free;
+      passed += scene_.lists.pass(point.from[origin], to[end]);
       point.free |= 1u << origin;
     }
     if (done + 1 == most && most > 1 && most == segments && free > 0 && free <= done) most = 2 * segments;
   }
   const double n = done, f = free;
   point.variance += factor * factor * ((f + 0.5) * (n - f + 0.5) / ((n + 1) * (n + 1) * (n + 2)));
-  return f / n;
+  return passed / n;
 }
 
 /// Around the samples of a patch and the centres of its sub-patches.
@@ -78,15 +80,18 @@ void GatherGroup::gather_near(const Look& look) {
 void GatherGroup::gather_close(GatherPoint& point, const Piece& piece, bool planar, const double* radiosity,
                                const LatticePoint* to, std::uint32_t ends, bool clear) {
   for (std::uint32_t k = 0; k < 4; ++k) {
-    const double factor = piece_factor(point.place[k], normal_, piece, planar);
+    double factor = piece_factor(point.place[k], normal_, piece, planar);
     if (!(factor > 0)) continue;
     if (!clear && scene_.lists.blocked(point.from[k], to[k & (ends - 1)])) {
       point.lost[k] += static_cast<float>(0.25 * factor);
       continue;
     }
-    if (!clear) point.free |= 1u << k;
+    if (!clear) {
+      point.free |= 1u << k;
+      factor *= scene_.lists.pass(point.from[k], to[k & (ends - 1)]);
+    }
     GatherPoint::Close& close = point.close[k];
-    close.factor += factor;
+    close.factor += solid_ * factor;
     for (std::uint32_t c = 0; c < scene_.surfaces.scene->channels; ++c) close.lx[c] += factor * radiosity[c];
   }
 }

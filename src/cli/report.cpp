@@ -41,7 +41,7 @@ std::string file_beside(std::string folder, const std::string& name) {
 
 /// One scene's runs: the reference first, then the cases in their order.
 std::vector<ReportJob> jobs_of(const Arguments& arguments, const std::string& scene,
-                               const std::vector<ReportCase>& cases, bool optics) {
+                               const std::vector<ReportCase>& cases) {
   const auto job = [&](const Options& options, const std::string& what, bool takes_more) {
     ReportJob made;
     made.scene = scene;
@@ -52,26 +52,22 @@ std::vector<ReportJob> jobs_of(const Arguments& arguments, const std::string& sc
     made.takes_more = takes_more;
     return made;
   };
-  std::vector<ReportJob> jobs{job(reference_options(arguments.options, optics), "reference", true)};
+  std::vector<ReportJob> jobs{job(reference_options(arguments.options), "reference", true)};
   for (const ReportCase& c : cases)
     jobs.push_back(job(c.options, "case " + std::to_string(c.number), c.refine > 1 || c.options.row_value_bits > 16));
   return jobs;
 }
 
 /// Whether the scene loads, fits into the budget and has the camera; the exit status. `mirrors` becomes true if it has
-/// any; `optics` says whether it has mirrors or panes.
-int check_scene(const Arguments& arguments, const std::string& scene, bool& mirrors, bool& optics) {
+/// any.
+int check_scene(const Arguments& arguments, const std::string& scene, bool& mirrors) {
   Arguments one = arguments;
   one.scene = scene;
   Run run(one);
   if (const int status = run.load_in_budget(); status != 0) return status;
   if (const int status = run.find_camera(); status != 0) return status;
   run.warn_of_changes();
-  optics = !run.model().geometry.panes.empty();
-  for (const Optics& one : run.model().scene.optics) {
-    mirrors = mirrors || one.mirrors();
-    optics = optics || one.mirrors();
-  }
+  for (const Optics& optics : run.model().scene.optics) mirrors = mirrors || optics.mirrors();
   return 0;
 }
 
@@ -116,17 +112,12 @@ int report(const Arguments& arguments) {
   OutputFolder folder(arguments.output);
   if (!folder.probe(error)) return run.tell(error);
   bool mirrors = false;
-  std::vector<bool> optics;
   for (const std::string& scene : arguments.scenes) {
-    bool any = false;
-    if (const int status = check_scene(arguments, scene, mirrors, any); status != 0) return status;
-    optics.push_back(any);
+    if (const int status = check_scene(arguments, scene, mirrors); status != 0) return status;
   }
   const std::vector<ReportCase> cases = report_cases(arguments.options, mirrors);
   std::vector<std::vector<ReportJob>> jobs;
-  for (std::size_t s = 0; s < arguments.scenes.size(); ++s) {
-    jobs.push_back(jobs_of(arguments, arguments.scenes[s], cases, optics[s]));
-  }
+  for (const std::string& scene : arguments.scenes) jobs.push_back(jobs_of(arguments, scene, cases));
   if (const Status status = run_all(jobs, run.watch().shown()); !status.done()) return run.tell(status);
   const std::string json = file_beside(arguments.output, "workstation.json");
   std::vector<SceneResults> results;

@@ -132,21 +132,21 @@ std::vector<ReportCase> report_cases(const Options& base, bool mirrors) {
   return cases;
 }
 
-Options reference_options(const Options& base, bool optics) {
-  constexpr double kTiers = 1e-4, kGather = 1e-4, kRefine = 3;
-  const std::uint32_t first = optics ? 64 : 16, mixed = optics ? 256 : 64;
+Options reference_options(const Options& base) {
+  constexpr double kTiers = 1e-4, kGather = 1e-4;
+  const bool gathers = !base.mirror_light;
+  const std::uint32_t first = gathers ? 16 : 64, mixed = gathers ? 64 : 256;
   Options options = base;
   options.flags = FlagMode::kAuto;
   options.rules = {};
-  options.refine = kRefine * base.refine;
+  options.refine = (gathers ? 3 : 2) * base.refine;
   options.tiers = std::min(base.tiers, kTiers);
   options.segments_first = std::max(base.segments_first, first);
   options.segments_mixed = std::max(base.segments_mixed, mixed);
   options.row_value_bits = 64;
   options.scale_rows = true;
   options.interpolate = true;
-  options.mirror_light = true;
-  options.gather = !optics;
+  options.gather = gathers;
   options.gather_error = kGather;
   return options;
 }

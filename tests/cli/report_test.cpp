@@ -317,7 +317,7 @@ TEST(ReportCases, NoneIsThereTwiceAndTheFirstIsTheBase) {
   }
 }
 
-TEST(ReportCases, LightOverMirrorsIsACaseWhereThereAreAnyAndInTheReferenceAlways) {
+TEST(ReportCases, LightOverMirrorsIsACaseWhereThereAreAny) {
   const auto has = [](const std::vector<ReportCase>& cases) {
     bool found = false;
     for (const ReportCase& c : cases) found = found || (c.options.mirror_light && c.other == "mirror-light on");
@@ -325,7 +325,7 @@ TEST(ReportCases, LightOverMirrorsIsACaseWhereThereAreAnyAndInTheReferenceAlways
   };
   EXPECT_FALSE(has(report_cases({})));
   EXPECT_TRUE(has(report_cases({}, true)));
-  EXPECT_TRUE(reference_options({}).mirror_light);
+  EXPECT_FALSE(reference_options({}).mirror_light);
 }
 
 TEST(ReportCases, TheReferenceIsNoCoarserThanTheBase) {
@@ -345,12 +345,16 @@ TEST(ReportCases, TheReferenceIsNoCoarserThanTheBase) {
   EXPECT_EQ(reference_options(base).tiers, 0) << "0 is the contour integral, the finest";
 }
 
-TEST(ReportCases, TheReferenceGathersButThroughPanesAndOverMirrors) {
+TEST(ReportCases, TheReferenceGathersButWithLightOverMirrors) {
   EXPECT_TRUE(reference_options({}).gather);
-  const Options with_optics = reference_options({}, true);
-  EXPECT_FALSE(with_optics.gather);
-  EXPECT_EQ(with_optics.segments_first, 64u);
-  EXPECT_EQ(with_optics.segments_mixed, 256u);
+  Options base;
+  base.mirror_light = true;
+  const Options reference = reference_options(base);
+  EXPECT_FALSE(reference.gather);
+  EXPECT_TRUE(reference.mirror_light);
+  EXPECT_EQ(reference.refine, 2);
+  EXPECT_EQ(reference.segments_first, 64u);
+  EXPECT_EQ(reference.segments_mixed, 256u);
 }
 
 TEST(ReportCases, RulesAreNamedAsTheOptionTakesThem) {
