@@ -11,7 +11,7 @@
 #include "scene/mesh.h"
 #include "scene/texture.h"
 #include "support/files.h"
-#include "support/scene_from_text.h"
+#include "support/kept_scene.h"
 
 namespace shodo {
 namespace {
@@ -50,7 +50,7 @@ double slow_reflectance(const Scene& scene, std::uint32_t m, std::uint32_t local
 }
 
 TEST(PatchReflectance, IsTheMeanOfThePatchsPartOfTheTexture) {
-  const LoadedScene scene(
+  const KeptScene scene(
       "shodo 1\nmaterial plain diffuse 0.2\nmaterial m diffuse 0.2 0.15 0.1 texture p.ppm size 1.1 0.7\n"
       "material once diffuse 0.15 texture q.ppm\nobject o\n"
       "quad plain 0 0 0  1 0 0  1 1 0  0 1 0 patches 2 2\n"
