@@ -183,7 +183,7 @@ Status light_ambiently_with_optics(const Scene& scene, const Geometry& geometry,
   const ArenaScratch scratch(arena);
   std::span<double> share;
   if (!arena.take("light over mirrors", values, share)) return arena.refused();
-  for (std::uint32_t round = 0; round <= kRounds; ++round) {
+  for (std::uint32_t round = 0;; ++round) {
     const ArenaScratch round_scratch(arena);
     DirectLight lit = direct;
     if (!arena.take("first light and that over mirrors", values, lit.patch_lx)) return arena.refused();
@@ -200,7 +200,6 @@ Status light_ambiently_with_optics(const Scene& scene, const Geometry& geometry,
     status = gather_all(mirrors, scene, progress, share);
     if (!status.done()) return status;
   }
-  return {};
 }
 
 std::uint64_t mirror_share_bytes(const Scene& scene, const Options& options) {

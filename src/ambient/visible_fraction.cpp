@@ -164,19 +164,17 @@ double segments_between(const PairEnds& ends) {
 }
 
 VisibleFraction weighted_fraction(const Surfaces& surfaces, const PairEnds& ends, const Tester& tester) {
-  for (const bool alike : {false, true}) {
-    Sums sums;
+  Sums sums;
+  for (bool alike = false; !(sums.all > 0); alike = true) {  // where no kernel is positive all count the same
     if (ends.one_set()) {
       weigh(surfaces, ends.few_i, ends.few_j, alike, tester, sums);
     } else {
       weigh(surfaces, ends.few_i, ends.many_j, alike, tester, sums);
       weigh(surfaces, ends.many_i, ends.few_j, alike, tester, sums);
     }
-    if (!(sums.all > 0)) continue;
-    const double value = sums.free / sums.all;
-    return {value, value * (1 - value) / segments_between(ends)};
   }
-  return {0, 0};
+  const double value = sums.free / sums.all;
+  return {value, value * (1 - value) / segments_between(ends)};
 }
 
 LatticeBox box_of(const PatchEnds& ends) {
@@ -199,21 +197,18 @@ bool panes_between(const PairEnds& ends, const Intersector& intersector) {
 /// The weighted mean of what arrives; `mixed` if segments differ.
 VisibleFraction fraction_through_panes(const Surfaces& surfaces, const PairEnds& ends, const Tester& tester,
                                        bool& mixed) {
-  for (const bool alike : {false, true}) {
-    Sums sums;
+  Sums sums;
+  for (bool alike = false; !(sums.all > 0); alike = true) {
     if (ends.one_set()) {
       weigh_through_panes(surfaces, ends.few_i, ends.few_j, alike, tester, sums);
     } else {
       weigh_through_panes(surfaces, ends.few_i, ends.many_j, alike, tester, sums);
       weigh_through_panes(surfaces, ends.many_i, ends.few_j, alike, tester, sums);
     }
-    if (!(sums.all > 0)) continue;
-    mixed = sums.mixed();
-    const double value = sums.mixed() ? sums.free / sums.all : sums.most;
-    return {value, mixed ? value * (1 - value) / segments_between(ends) : 0};
   }
-  mixed = false;
-  return {0, 0};
+  mixed = sums.mixed();
+  const double value = mixed ? sums.free / sums.all : sums.most;
+  return {value, mixed ? value * (1 - value) / segments_between(ends) : 0};
 }
 
 }  // namespace

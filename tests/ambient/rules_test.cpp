@@ -372,11 +372,21 @@ TEST(Blocks, InAnOpenRoomWhatIsMissingStaysMissing) {
 }
 
 TEST(Blocks, WhatDoesNotBlockHidesNoneOfTheBlockersAfterIt) {
-  // By the scene's flags: a speck that blocks nothing stands in the file before a screen that does.
-  const auto mean = [](const char* speck, const char* screen) {
+  // By the scene's flags: specks that block nothing, in corners so that some come before a screen that does in any order.
+  std::string specks = "\n";
+  for (const char* at : {"0.1 0.1", "3.9 0.1", "0.1 2.8", "3.9 2.8"}) {
+    for (const char* z : {"0.1", "2.3"}) {
+      const double x = std::stod(at), y = std::stod(std::string(at).substr(4));
+      const auto corner = [&](double dx, double dy) {
+        return " " + std::to_string(x + dx) + " " + std::to_string(y + dy) + " " + z;
+      };
+      specks += "quad white" + corner(0, 0) + corner(0.05, 0) + corner(0.05, 0.05) + corner(0, 0.05) +
+                " patches 1 1 sub 1 1\n";
+    }
+  }
+  const auto mean = [&](const char* speck, const char* screen) {
     const std::string text = grey(0.5) + "display 0 1\n" + box_walls(4, 3, 2.5, 4, 4, 4, "white") +
-                             "object speck ambient " + speck + "\nquad white 3.9 0.1 0.1  3.95 0.1 0.1  3.95 0.15 0.1  "
-                             "3.9 0.15 0.1 patches 1 1 sub 1 1\nobject screen ambient " + screen +
+                             "object specks ambient " + speck + specks + "object screen ambient " + screen +
                              "\nquad white 2 0.1 0.1  2 2.9 0.1  2 2.9 2.4  2 0.1 2.4 patches 1 1 sub 1 1\n"
                              "light l point at 1 1.5 1.2 intensity 100\n";
     Options options = with_rules(blocks(0));
