@@ -133,11 +133,11 @@ stability: $(BUILD)/tests
 load: $(BUILD)/shodo $(BUILD)/tests
 	SHODO_HARD=all $(BUILD)/tests --gtest_filter='Load.*:Metamorphic.*'
 
-# The library with counters, the tests as they are: out/coverage.txt.
+# The library with counters, nothing inlined so that every line counts once, the tests as they are: out/coverage.txt.
 COVERED_OBJECTS = $(patsubst %.cpp,$(BUILD)/coverage/objects/%.o,$(LIBRARY_SOURCES))
 $(COVERED_OBJECTS): $(BUILD)/coverage/objects/%.o: %.cpp $(BUILD)/flags.stamp
 	@mkdir -p $(@D)
-	$(CXX) $(LIBRARY_FLAGS) $(CXXFLAGS) --coverage -MMD -MP -c $< -o $@
+	$(CXX) $(LIBRARY_FLAGS) $(CXXFLAGS) -O1 -fno-inline --coverage -MMD -MP -c $< -o $@
 $(BUILD)/coverage/tests: $(COVERED_OBJECTS) $(BUILD)/tests
 	$(CXX) $(OPT) $(CXXFLAGS) $(LDFLAGS) --coverage $(TEST_LINK) $(TEST_OBJECTS) $(PROGRAM_PARTS) $(COVERED_OBJECTS) \
 	  -lgtest_main -lgtest -lpthread -o $@
@@ -161,7 +161,7 @@ soak: $(BUILD)/tests
 # The core's code with one sign changed, and whether the tests see it: out/mutants.csv; an hour. MUTANTS: tests/mutants/run.
 MUTANTS =
 mutants: $(BUILD)/shodo $(BUILD)/tests
-	@BUILD=$(BUILD) COMPILE='$(CXX) $(LIBRARY_FLAGS) $(CXXFLAGS)' LINK='$(CXX) $(OPT) $(CXXFLAGS) $(LDFLAGS)' \
+	@BUILD=$(BUILD) OUT=$(OUT) COMPILE='$(CXX) $(LIBRARY_FLAGS) $(CXXFLAGS)' LINK='$(CXX) $(OPT) $(CXXFLAGS) $(LDFLAGS)' \
 	  TEST_OBJECTS='$(TEST_LINK) $(TEST_OBJECTS) $(PROGRAM_PARTS)' PROGRAM_OBJECTS='$(PROGRAM_OBJECTS)' \
 	  sh tests/mutants/run $(MUTANTS)
 

@@ -155,25 +155,23 @@ double segments_between(const PairEnds& ends) {
                                             : ends.few_i.set.size() * ends.many_j.set.size() * 2);
 }
 
-/// Of both sets; if no kernel is positive, all the same. False: there are no pairs.
+/// Of both sets; where no kernel is positive all count the same.
 template <bool kPanes>
-bool weigh_both(const Surfaces& surfaces, const PairEnds& ends, const Tester& tester, Sums& sums) {
-  for (const bool alike : {false, true}) {
-    sums = {};
+Sums weigh_both(const Surfaces& surfaces, const PairEnds& ends, const Tester& tester) {
+  Sums sums;
+  for (bool alike = false; !(sums.all > 0); alike = true) {
     if (ends.one_set()) {
       weigh<kPanes>(surfaces, ends.few_i, ends.few_j, alike, tester, sums);
     } else {
       weigh<kPanes>(surfaces, ends.few_i, ends.many_j, alike, tester, sums);
       weigh<kPanes>(surfaces, ends.many_i, ends.few_j, alike, tester, sums);
     }
-    if (sums.all > 0) return true;
   }
-  return false;
+  return sums;
 }
 
 VisibleFraction weighted_fraction(const Surfaces& surfaces, const PairEnds& ends, const Tester& tester) {
-  Sums sums;
-  if (!weigh_both<false>(surfaces, ends, tester, sums)) return {0, 0};
+  const Sums sums = weigh_both<false>(surfaces, ends, tester);
   const double value = sums.free / sums.all;
   return {value, value * (1 - value) / segments_between(ends)};
 }
@@ -198,9 +196,7 @@ bool panes_between(const PairEnds& ends, const Intersector& intersector) {
 /// The weighted mean of what arrives; `mixed` if segments differ.
 VisibleFraction fraction_through_panes(const Surfaces& surfaces, const PairEnds& ends, const Tester& tester,
                                        bool& mixed) {
-  Sums sums;
-  mixed = false;
-  if (!weigh_both<true>(surfaces, ends, tester, sums)) return {0, 0};
+  const Sums sums = weigh_both<true>(surfaces, ends, tester);
   mixed = sums.mixed();
   const double value = mixed ? sums.free / sums.all : sums.most;
   return {value, mixed ? value * (1 - value) / segments_between(ends) : 0};

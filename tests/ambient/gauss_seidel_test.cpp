@@ -42,6 +42,42 @@ TEST(GaussSeidel, TheBoundIsNeverBelowTheTrueErrorOfTheStoredSystem) {
   }
 }
 
+TEST(GaussSeidel, TheRowSumsBehindTheBoundAreThoseOfTheStoredMatrix) {
+  // Rows of very different sums, two reflectances, so that each part of a sum shows in the largest.
+  const std::string whole = box_walls(4, 3, 2.5, 4, 3, 3, "white");
+  const std::string open = whole.substr(0, whole.find("object wall_x1")) + table(0.7);  // the largest sums come early
+  for (const bool blocks : {false, true}) {
+    for (const bool coloured : {false, true}) {
+      Options options;
+      options.rules.blocks = blocks;
+      const std::string wood = coloured ? "material wood diffuse 0.6 0.9 0.1\n" : "material wood diffuse 0.3\n";
+      AmbientScene scene(grey(0.7) + wood + open, options);
+      scene.light([](const Vec3& p, std::uint32_t) { return 100 * p.x; });
+      const StoredMatrix stored(scene);
+      const Scene& s = scene.loaded.scene;
+      for (std::uint32_t c = 0; c < s.channels; ++c) {
+        double most = 0, most_above = 0;
+        for (std::uint32_t a = 0; a < stored.matrix.surfaces.size(); ++a) {
+          if (stored.matrix.surfaces.is_block(a)) continue;
+          const std::size_t i = stored.matrix.surfaces.patch_at[a];
+          double sum = 0, above = 0;
+          for (std::uint32_t b = 0; b < stored.matrix.surfaces.size(); ++b) {
+            if (stored.matrix.surfaces.is_block(b)) continue;
+            const std::size_t j = stored.matrix.surfaces.patch_at[b];
+            const double sent = stored.form_factor(i, j) * s.materials[s.meshes[scene.patches[j].mesh].material].diffuse.c[c];
+            sum += sent;
+            above += b > a ? sent : 0;
+          }
+          most = std::max(most, sum);
+          most_above = std::max(most_above, above);
+        }
+        EXPECT_NEAR(stored.matrix.reflected[c], most, 1e-12);
+        EXPECT_NEAR(stored.matrix.reflected_upper[c], blocks ? most : most_above, 1e-12);
+      }
+    }
+  }
+}
+
 TEST(GaussSeidel, SweepsAreThoseOfTheTextbook) {
   // Two sweeps without a correction between are not to be had, so one: tolerance 1e9 stops after the first.
   Options options;

@@ -372,11 +372,21 @@ TEST(Blocks, InAnOpenRoomWhatIsMissingStaysMissing) {
 }
 
 TEST(Blocks, WhatDoesNotBlockHidesNoneOfTheBlockersAfterIt) {
-  // By the scene's flags: a speck that blocks nothing stands in the file before a screen that does.
-  const auto mean = [](const char* speck, const char* screen) {
+  // By the scene's flags: specks that block nothing, in corners so that some come before a screen that does in any order.
+  std::string specks = "\n";
+  for (const char* at : {"0.1 0.1", "3.9 0.1", "0.1 2.8", "3.9 2.8"}) {
+    for (const char* z : {"0.1", "2.3"}) {
+      const double x = std::stod(at), y = std::stod(std::string(at).substr(4));
+      const auto corner = [&](double dx, double dy) {
+        return " " + std::to_string(x + dx) + " " + std::to_string(y + dy) + " " + z;
+      };
+      specks += "quad white" + corner(0, 0) + corner(0.05, 0) + corner(0.05, 0.05) + corner(0, 0.05) +
+                " patches 1 1 sub 1 1\n";
+    }
+  }
+  const auto mean = [&](const char* speck, const char* screen) {
     const std::string text = grey(0.5) + "display 0 1\n" + box_walls(4, 3, 2.5, 4, 4, 4, "white") +
-                             "object speck ambient " + speck + "\nquad white 3.9 0.1 0.1  3.95 0.1 0.1  3.95 0.15 0.1  "
-                             "3.9 0.15 0.1 patches 1 1 sub 1 1\nobject screen ambient " + screen +
+                             "object specks ambient " + speck + specks + "object screen ambient " + screen +
                              "\nquad white 2 0.1 0.1  2 2.9 0.1  2 2.9 2.4  2 0.1 2.4 patches 1 1 sub 1 1\n"
                              "light l point at 1 1.5 1.2 intensity 100\n";
     Options options = with_rules(blocks(0));
@@ -390,6 +400,24 @@ TEST(Blocks, WhatDoesNotBlockHidesNoneOfTheBlockersAfterIt) {
   const double both = mean("+blocks", "+blocks"), one = mean("-blocks", "+blocks"), none = mean("-blocks", "-blocks");
   EXPECT_NEAR(one, both, 0.01 * both);
   EXPECT_GT(none, 1.2 * both);
+}
+
+TEST(Blocks, TiltedScreensHideAsMuchAsWithoutRules) {
+  // A screen aslant through the room, of two triangles that are square to no axis; all light is on one side.
+  const std::string screen = "object screen\nquad white 1.6 0 0  2.6 3 0  2.4 3 2.5  1.4 0 2.5 patches 1 1 sub 1 1\n"
+                             "quad white 1.6 0 0  1.4 0 2.5  2.4 3 2.5  2.6 3 0 patches 1 1 sub 1 1\n";
+  const auto behind = [](const std::string& text, const Rules& rules) {
+    const SolvedScene solved(grey(0.5) + box_walls(4, 3, 2.5, 5, 5, 5, "white") + text +
+                             "light l point at 0.7 1.5 1.2 intensity 100\n", with_rules(rules));
+    const Mesh& wall = solved.model->scene.meshes[5];
+    double sum = 0;
+    for (std::uint32_t k = 0; k < wall.patch_count(); ++k) sum += solved.model->ambient.patch_lx[wall.first_patch + k];
+    return sum;
+  };
+  const double hidden = behind(screen, {}), linked = behind(screen, blocks(0)), all = behind("", {});
+  // Patches that stand on both sides of it, and their samples, let some light through.
+  EXPECT_LT(hidden, 0.1 * all);
+  EXPECT_LT(linked, 0.1 * all);
 }
 
 TEST(Blocks, TheSolutionIsThatOfTheStoredMatrix) {

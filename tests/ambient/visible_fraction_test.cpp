@@ -44,5 +44,37 @@ TEST(VisibleFraction, ThroughAPaneIsWhatItTransmitsWhateverTheSegments) {
   }
 }
 
+TEST(VisibleFraction, HalfBehindAPaneIsBetweenWhateverTheSegments) {
+  const std::string ceiling = "object ceiling\nquad white 0 0 1  0 1 1  1 1 1  1 0 1 patches 1 1 sub 1 1\n";
+  const std::string pane = "object pane\nquad glass -3 -3 0.5  0.5 -3 0.5  0.5 4 0.5  -3 4 0.5 patches 1 1 sub 1 1\n";
+  for (const auto& [first, mixed] : {std::pair{4u, 4u}, {16u, 16u}, {16u, 64u}, {64u, 64u}}) {
+    Options options;
+    options.segments_first = first;
+    options.segments_mixed = mixed;
+    options.scale_rows = false;
+    AmbientScene plain(kHead + ceiling, options), behind(kHead + ceiling + pane, options);
+    const StoredMatrix free(plain), weakened(behind);
+    // Half of the light passes it; segments that meet its edge are free.
+    EXPECT_GT(weakened.form_factor(0, 1), 0.75 * free.form_factor(0, 1)) << first << ", " << mixed;
+    EXPECT_LT(weakened.form_factor(0, 1), 0.9 * free.form_factor(0, 1)) << first << ", " << mixed;
+  }
+}
+
+TEST(VisibleFraction, OfUnevenPatchesTheMiddleTierIsTheContourIntegral) {
+  // A floor that narrows to a fifth: its Gauss points' weights follow. Far enough apart for the middle tier.
+  const std::string narrowing = "shodo 1\nmaterial white diffuse 0.5\nobject floor\n"
+                                "quad white 0 0 0  1 0 0  0.6 1 0  0.4 1 0 patches 1 1 sub 1 1\n"
+                                "object wall\nquad white 0 3 0.2  1 3 0.2  1 3 1.2  0 3 1.2 patches 1 1 sub 1 1\n";
+  Options near, middle;
+  near.scale_rows = middle.scale_rows = false;
+  near.row_value_bits = middle.row_value_bits = 64;
+  near.tiers = 0;
+  middle.tiers = 0.02;
+  AmbientScene exact(narrowing, near), quick(narrowing, middle);
+  const StoredMatrix truth(exact), found(quick);
+  EXPECT_GT(truth.form_factor(0, 1), 1e-3);
+  EXPECT_NEAR(found.form_factor(0, 1), truth.form_factor(0, 1), 0.01 * truth.form_factor(0, 1));
+}
+
 }  // namespace
 }  // namespace shodo

@@ -93,6 +93,7 @@ class OpticsScene {
     return outcome;
   }
 
+  const IlluminanceMaps& maps() const { return maps_; }
   Scene& scene() { return loaded_.scene; }
   Geometry& geometry() { return geometry_; }
 
@@ -282,6 +283,43 @@ TEST(PictureOptics, NothingThinIsMissedBetweenTracedSamples) {
   }
   expect_as_twin(kRoom + rods + "object m\nquad mirror 0 0 0  4 0 0.1  4 3 0.1  0 3 0 patches 1 1\n"
                  "quad glass 0.2 0.2 1.2  2.2 0.2 1.2  2.2 2.2 1.2  0.2 2.2 1.2\n");
+
+TEST(PictureOptics, OfTwoPolygonsInOnePlaneAMirrorShowsTheSameInAnyOrder) {
+  const std::string mirror = "object m\nquad mirror 0.2 0.2 0.1  3.8 0.2 0.1  3.8 2.8 0.1  0.2 2.8 0.1\n";
+  const std::string wide = "object wide\nquad wall 1 0.5 3.5  1 2.5 3.5  3 2.5 3.5  3 0.5 3.5\n";
+  const std::string small_one = "object small\nquad gold 1.5 1 3.5  1.5 2 3.5  2.5 2 3.5  2.5 1 3.5\n";
+  const auto drawn = [](const std::string& text) {
+    OpticsScene scene(kRoom + text, small(80, 60));
+    for (float& lx : std::span(const_cast<float*>(scene.maps().direct_lx.data()), scene.maps().direct_lx.size())) lx = 300;
+    return scene.draw();
+  };
+  EXPECT_EQ(drawn(mirror + wide + small_one), drawn(mirror + small_one + wide));
+  EXPECT_NE(drawn(mirror + wide + small_one), drawn(mirror + wide)) << "the smaller one is seen";
+}
+
+TEST(PictureOptics, HighlightsOfAFaceAreThoseOfItsTriangles) {
+  // A parallelogram, and a quadrilateral with a corner inwards, against the two triangles that make them.
+  const auto drawn = [](const std::string& lamp) {
+    OpticsScene scene(kRoom + kBackWall + "object top\nquad lacquer 0.8 0.6 0.8  0.8 0.6 2.6  3.2 0.6 2.6  3.2 0.6 0.8\n"
+                      "object lamp\n" + lamp + "light l polyhedron object lamp luminance 2500\n", small(64, 48));
+    return scene.draw();
+  };
+  for (const auto& [quad, halves] :
+       {std::pair{"quad grey 1.6 2.2 0.8  1.9 2.2 0.8  1.9 2.2 1.1  1.6 2.2 1.1\n",
+                  "tri grey 1.6 2.2 0.8  1.9 2.2 0.8  1.9 2.2 1.1\ntri grey 1.6 2.2 0.8  1.9 2.2 1.1  1.6 2.2 1.1\n"},
+        {"quad grey 1.2 2.2 0.6  2.2 2.2 0.6  1.5 2.2 0.9  1.2 2.2 1.6\n",
+         "tri grey 1.2 2.2 0.6  2.2 2.2 0.6  1.5 2.2 0.9\ntri grey 1.2 2.2 0.6  1.5 2.2 0.9  1.2 2.2 1.6\n"}}) {
+    const std::vector<std::uint8_t> whole = drawn(quad), parts = drawn(halves);
+    int off = 0, most = 0;
+    for (std::size_t k = 0; k < whole.size(); ++k) {
+      const int apart = std::abs(whole[k] - parts[k]);
+      off += apart > 1 ? 1 : 0;
+      most = std::max(most, apart);
+    }
+    // Other points of the face: what they share out is the same to the error of the quadrature.
+    EXPECT_LT(off * 50, static_cast<int>(whole.size())) << most;
+    EXPECT_LT(most, 12);
+  }
 }
 
 TEST(PictureOptics, BrightnessRollsOffAfterAllIsAdded) {

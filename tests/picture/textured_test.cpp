@@ -176,6 +176,27 @@ TEST(Textured, PlainsAreTheTwinsUpToTheHorizon) {
   expect_twin(plain);
 }
 
+// Where a map is so fine that fixed point doesn't hold its coordinates, its texture's mean is shown.
+TEST(Textured, ManyThousandSubPatchesShowTheMean) {
+  TexturedScene scene(
+      "shodo 1\ndisplay 0 250\nmaterial m diffuse 0.4 texture c.pgm size 0.5 0.5\nobject o\n"
+      "quad m -40 0 -40  -40 0 40  40 0 40  40 0 -40  patches 1 1 sub 40000 1\n"
+      "camera a eye 0 1.5 0 look 3 0 2 up 0 1 0 fov 65\n",
+      {{"c.pgm", checks(16)}}, plain_options());
+  std::fill(scene.direct.begin(), scene.direct.end(), 400.0f);
+  std::fill(scene.ambient.begin(), scene.ambient.end(), 0.0f);
+  const std::vector<std::uint8_t> rgb = scene.draw();
+  // 400 lx at reflectance 0.4: 0.4 * 400 / pi / 250 of white, as sRGB.
+  const double linear = 0.4 * 400 / M_PI / 250, expected = 255 * (1.055 * std::pow(linear, 1 / 2.4) - 0.055);
+  std::size_t seen = 0;
+  for (const std::uint8_t value : rgb) {
+    if (value == 0) continue;
+    ++seen;
+    EXPECT_NEAR(value, expected, 1.5);
+  }
+  EXPECT_GT(seen, rgb.size() / 2);
+}
+
 // Far away a texture is its mean: neither pixels nor pictures from eyes that are a little apart differ more than light
 // does, whereas near by black and white stand side by side.
 TEST(Textured, NothingShimmersAtADistance) {
@@ -199,11 +220,13 @@ TEST(Textured, NothingShimmersAtADistance) {
   }
 }
 
-// A texture of one colour multiplies by 1, whatever MIN is.
+// A texture of one colour multiplies by 1, whatever MIN is; what a lamp emits isn't multiplied.
 TEST(Textured, OneColourShowsWhatNoTextureShows) {
-  for (const char* const display : {"display 0 200\n", "display 20 200\n"}) {
-    const std::string rest = std::string(display) +
-                             "object o\nquad m 0 0 0  3 0 0  3 2 0  0 2 0 patches 4 4 sub 2 2\n"
+  for (const char* const display : {"display 0 200\n", "display 20 200\n",
+                                    "display 5 200\nlight lamp polyhedron object o luminance 60 colour 1 0.5 0.2\n"}) {
+    const std::string shown = display, object = "object o\nquad m 0 0 0  3 0 0  3 2 0  0 2 0 patches 4 4 sub 2 2\n";
+    const std::size_t lamp = shown.find("light");
+    const std::string rest = shown.substr(0, lamp) + object + (lamp < shown.size() ? shown.substr(lamp) : "") +
                              "camera a eye 1.5 1 2 look 1.5 1 0 up 0 1 0 fov 60\n";
     TexturedScene with("shodo 1\nmaterial m diffuse 0.6 0.5 0.4 texture c.ppm\n" + rest,
                        {{"c.ppm", "P6 2 1 255\nabcabc"}}, plain_options());
