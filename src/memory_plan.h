@@ -20,8 +20,8 @@ inline constexpr std::size_t kPlanStages = 6;
 const char* plan_stage_name(PlanStage stage);
 
 enum class PlanPart : std::uint8_t {
-  kModel, kScene, kTriangles, kDrawn, kPlacing, kFlags, kDirectLight, kBlockers, kMasks, kSources, kMirrors, kAmbientLight,
-  kSurfaces, kLinks, kSolution, kAmbientOptics, kSubPatches, kPlanes, kMeasuring, kMaps, kSpreading, kDrawing
+  kModel, kScene, kTriangles, kDrawn, kPlacing, kFlags, kDirectLight, kBlockers, kSources, kMirrors, kAmbientLight, kSurfaces,
+  kLinks, kSolution, kAmbientOptics, kSubPatches, kPlanes, kMeasuring, kMaps, kSpreading, kDrawing
 };
 
 /// For whoever shows a plan; not linked where nobody does.

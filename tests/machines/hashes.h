@@ -14,15 +14,15 @@ struct Hashes {
 };
 
 inline constexpr Hashes kHashes[] = {
-    {"box", 0xd1ce5376a206fe49, 0x6f39f1d73d03a684},
+    {"box", 0x2fff126fb5eba675, 0xce14a372ca261786},
     {"sun", 0x9e54c6cd4147ac22, 0x6973181985d668a5},
-    {"shapes", 0xbe974c307329fb4f, 0x6bae46df3570df52},
-    {"rules", 0x6273541003762f78, 0xd3c6e30876d572e4},
-    {"rule2+", 0x81936dfec66a794b, 0x30775391f7383ca3},
-    {"blocks", 0x5893e099251dbb4a, 0x36c68ca7622121c4},
-    {"planes", 0x3d41118a6a492842, 0x0705705b6ae7d01e},
+    {"shapes", 0xddbb2b05d1d16fb8, 0x4564159a356e8e54},
+    {"rules", 0x38893717c94b46b8, 0x74822eaf9d05b3d3},
+    {"rule2+", 0xb53bf9770cfa55c5, 0x0d729b21cffe19fa},
+    {"blocks", 0x66304eeed0fbd79b, 0x7d8f18a7fa958c73},
+    {"planes", 0xf7946a819818c41c, 0xbb0ed19ae748e346},
     {"textures", 0x32f677bba978abff, 0xe903ee013f3ff48c},
-    {"day", 0xdad13cb4bf5236a9, 0xc93fbed20444a7d0},
+    {"day", 0x789844221063c652, 0x3936fbdc8a3204d9},
 };
 
 }  // namespace machines
