@@ -51,7 +51,6 @@ void plan_light(const Model& model, MemoryPlan& plan) {
   plan.add(PlanPart::kDirectLight, direct_patch_bytes(scene), kLight);
   plan.add(PlanPart::kBlockers, Intersector::bytes(model.geometry, options.flags),
            kDirect | kAgain | (scene.patch_count > 0 ? kAmbient : 0));
-  plan.add(PlanPart::kMasks, Intersector::mask_bytes(model.geometry, options.flags), kDirect | kAgain);
   plan.add(PlanPart::kSources, Sources::bytes(scene),
            kDirect | kAgain);
   if (const std::uint64_t mirrors = mirror_bytes(model); mirrors > 0) {
@@ -112,7 +111,6 @@ PartText plan_part_text(PlanPart part) {
       {"flags", "2 (objects + lights)"},
       {"direct light of the patches", "(8 c + 8) n"},
       {"possible blockers", "32 facets + 24 boxes + 8 facets"},
-      {"masks of blockers", "24 facets, in steps of 64, up to 4,096"},
       {"light sources", "4,096 + 400 lights + 168 faces that emit + 44 ends of segments"},
       {"mirrors that send light on", "48 a triangle, with --mirror-light on"},
       {"ambient light of the patches", "8 c n"},
@@ -184,8 +182,7 @@ bool keeps_geometry(const Model& model) {
   // Geometry costs less to find again than the direct light that would have to make room for it.
   const std::uint64_t rounds = rounds_bytes(scene, model.geometry, options);
   std::uint64_t most = patches + blockers + ambient + rounds + rows + (rows > 0 ? sub_patches : 0);
-  const std::uint64_t masks = Intersector::mask_bytes(model.geometry, options.flags);
-  most = larger(most, solved + blockers + masks + Sources::bytes(scene) + plane_gather_bytes(scene) + mirror_bytes(model));
+  most = larger(most, solved + blockers + Sources::bytes(scene) + plane_gather_bytes(scene) + mirror_bytes(model));
   most = larger(most, solved + maps_bytes(model, SurfacesKeep::kGeometry));
   return most <= model.arena.capacity();
 }

@@ -20,7 +20,7 @@ inline constexpr std::size_t kPlanStages = 6;
 const char* plan_stage_name(PlanStage stage);
 
 enum class PlanPart : std::uint8_t {
-  kModel, kScene, kTriangles, kDrawn, kPlacing, kFlags, kDirectLight, kBlockers, kMasks, kSources, kMirrors, kAmbientLight,
+  kModel, kScene, kTriangles, kDrawn, kPlacing, kFlags, kDirectLight, kBlockers, kSources, kMirrors, kAmbientLight,
   kSurfaces, kLinks, kSolution, kAmbientOptics, kSubPatches, kFactors, kPlanes, kMeasuring, kMaps, kSpreading, kDrawing
 };
 

@@ -241,13 +241,14 @@ Status light_directly(const Scene& scene, const Geometry& geometry, std::span<co
   }
   const ArenaScratch scratch(arena);
   const IntersectorScratch seeking(intersector);
-  if (!intersector.start(arena, Rectangles::kWhole) || !intersector.take_masks(arena)) return arena.refused();
+  if (!intersector.start(arena, Rectangles::kWhole)) return arena.refused();
   Sources sources(scene, geometry, intersector, options.tiers);
   const Status status = sources.prepare(arena);
   if (!status.done()) return status;
   MirrorLight mirrors(sources);
   if (options.mirror_light && !mirrors.take(arena)) return arena.refused();
   if (first) take_spare_sub_patches(scene, options, arena, direct);
+  if (!intersector.take_masks(arena)) return arena.refused();
   DirectStage stage(scene, geometry, sources, mirrors, direct);
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
     for (std::uint32_t local = 0; local < scene.meshes[m].patch_count(); ++local) {

@@ -62,8 +62,8 @@ class FaceLight {
         tiers_(tiers) {}
 
   /// Faces `first` to `first + count`, all of one light, ascending, of which the samples receive `given` together if it
-  /// isn't below 0: then shares of the faces are found roughly, and none of those in `behind`. `ends`: the box around the ends of all of them,
-  /// `whole`: around all their points; `grid`: of an area light's ends, or null.
+  /// isn't below 0: then shares of the faces are found roughly, and none of those in `behind`. `ends`: the box around
+  /// the ends of all of them, `whole`: around all their points; `grid`: of an area light's ends, or null.
   FaceLook look(const SubPatchView& view, const ReceiverGroup& group, const Link& link, std::uint32_t first,
                 std::uint32_t count, const LatticeBox& ends, const LatticeBox& whole, const EndGrid* grid,
                 double given, std::uint32_t behind) const;

@@ -49,7 +49,8 @@ void PatchAims::keep(List& list, const Aim& aim) {
 
 bool PatchAims::hidden(std::uint32_t l, const Link& link, const LatticeBox& from, const LatticeBox& ends) const {
   const List& list = lists_[l];
-  return list.blocker != kNone && intersector_->seeking() && intersector_->tested(link) && intersector_->hides_all(list.blocker, from, ends, link);
+  return list.blocker != kNone && intersector_->seeking() && intersector_->tested(link) &&
+         intersector_->hides_all(list.blocker, from, ends, link);
 }
 
 void PatchAims::used(std::uint32_t l, const Aim& aim) {

@@ -90,13 +90,15 @@ FactorField::State Sources::field_of(const Source& source) const {
     nearest = nearest + (at > 1 ? 1 : at > 0 ? at : 0) * side;
   }
   const double reach = kFieldRadii * patch_radius_;
-  return length_squared(nearest - patch_centre_) >= reach * reach ? FactorField::State::kUsable : FactorField::State::kNone;
+  const bool far = length_squared(nearest - patch_centre_) >= reach * reach;
+  return far ? FactorField::State::kUsable : FactorField::State::kNone;
 }
 
 std::uint32_t Sources::faces_behind(const Source& source) const {
   std::uint32_t behind = 0;
   for (std::uint32_t e = 0; e < source.emitter_count && e < 32; ++e) {
-    if (emitters_.faces[source.first_emitter + e].height(patch_centre_) < -patch_radius_) behind |= std::uint32_t{1} << e;
+    const Emitter& face = emitters_.faces[source.first_emitter + e];
+    if (face.height(patch_centre_) < -patch_radius_) behind |= std::uint32_t{1} << e;
   }
   return behind;
 }

@@ -17,8 +17,9 @@
 // its visible part. A sample that any light reaches is not hidden; only dark ones are looked at, since that takes a
 // search. A sub-patch is hidden if its centre and all corner samples are.
 //
-// Approximate: what falls between the samples. Against 16 samples with 256 segments each, both rooms were 7.3 %
-// (day) and 6.7 % (evening) off, as a root mean square over the mean, without the worst hundredth 3.3 % and 2.5 %.
+// Approximate: what falls between the samples. Against 16 samples everywhere, with all 32 ends of an area light and all
+// of a polyhedron's, both rooms were 4.8 % (day) and 4.3 % (evening) off, as a root mean square over the mean, without
+// the worst hundredth 2.5 % and 1.3 %. (Asked finely from a difference of 1/4 on, not 1/2: 6.1 % and 4.4 %.)
 // Stack: 3.2 KiB, 2 in a function at most; no memory.
 #pragma once
 

@@ -92,7 +92,7 @@ bool Intersector::start(Arena& arena, Rectangles rectangles) {
 
 bool Intersector::take_masks(Arena& arena) {
   const std::uint32_t most = Blockers::facet_count(*geometry_);
-  if (!seeking() || most > kMostMasked) return true;
+  if (!seeking() || most > kMostMasked || arena.capacity() - arena.in_use() < FacetMasks::bytes(most)) return true;
   if (!masks_.take(arena, most)) return false;
   const std::span<const Facet> facets = blockers_.facets();
   LatticeBox around;
@@ -100,11 +100,6 @@ bool Intersector::take_masks(Arena& arena) {
   masks_.start(static_cast<std::uint32_t>(facets.size()), around);
   for (std::uint32_t k = 0; k < facets.size(); ++k) masks_.add(k, facets[k].box);
   return true;
-}
-
-std::uint64_t Intersector::mask_bytes(const Geometry& geometry, FlagMode mode) {
-  const std::uint32_t most = Blockers::facet_count(geometry);
-  return features::aims(mode) && most <= kMostMasked ? FacetMasks::bytes(most) : 0;
 }
 
 void Intersector::finish() {

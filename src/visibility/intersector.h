@@ -59,9 +59,9 @@ class Intersector {
   void finish();
   /// Whether aims find anything: between start() and finish(), flags not off.
   bool seeking() const { return features::kAims && started_; }
-  /// After start(): masks find what aims list, not the tree, unless there are too many facets. False: as start().
+  /// After start(), and after all else that the stage takes: masks find what aims list, not the tree, if there is room
+  /// for them and facets aren't too many. False: as start().
   bool take_masks(Arena& arena);
-  static std::uint64_t mask_bytes(const Geometry& geometry, FlagMode mode);
   /// Arena bytes of start() after take_flags().
   static std::uint64_t bytes(const Geometry& geometry, FlagMode mode);
 

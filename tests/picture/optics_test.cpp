@@ -283,6 +283,7 @@ TEST(PictureOptics, NothingThinIsMissedBetweenTracedSamples) {
   }
   expect_as_twin(kRoom + rods + "object m\nquad mirror 0 0 0  4 0 0.1  4 3 0.1  0 3 0 patches 1 1\n"
                  "quad glass 0.2 0.2 1.2  2.2 0.2 1.2  2.2 2.2 1.2  0.2 2.2 1.2\n");
+}
 
 TEST(PictureOptics, OfTwoPolygonsInOnePlaneAMirrorShowsTheSameInAnyOrder) {
   const std::string mirror = "object m\nquad mirror 0.2 0.2 0.1  3.8 0.2 0.1  3.8 2.8 0.1  0.2 2.8 0.1\n";
