@@ -88,21 +88,20 @@ std::uint32_t piece_around(std::uint32_t k, const PieceIndex& small, std::uint64
   return triangle_piece_order(k, found);
 }
 
-/// Each piece of `target` is divided in kDivisions^2 equal ones, each of which takes the value around its centre. That
-/// is the area mean exactly where one count is 1, 2, 3, 4, 6 or 12 times the other.
+/// Each piece of `target` is divided in 4^2 or 12^2 equal ones, each of which takes the value around its centre. That
+/// is the area mean exactly where one count is 1, 2, 3 or 4 times the other.
 void bring_triangle(const MapCopy& from, const MeshGrid& source, const MeshGrid& target, double cut_above,
                     ComparedMap& map) {
-  constexpr std::uint32_t kDivisions = 12;
-  const std::uint32_t k = target.width, fine = kDivisions * k;
+  const std::uint32_t k = target.width, divisions = source.width % (3 * k) == 0 ? 12 : 4, fine = divisions * k;
   const double part = static_cast<double>(source.width) * source.width / (static_cast<double>(fine) * fine);
   for (std::uint32_t piece = 0; piece < k * k; ++piece) {
     const PieceIndex at = triangle_piece(k, piece);
     Mean mean(from, cut_above);
-    for (std::uint32_t local = 0; local < kDivisions * kDivisions; ++local) {
-      PieceIndex small = triangle_piece(kDivisions, local);
-      if (at.inverted) small = {kDivisions - 1 - small.u, kDivisions - 1 - small.v, !small.inverted};
-      small.u += kDivisions * at.u;
-      small.v += kDivisions * at.v;
+    for (std::uint32_t local = 0; local < divisions * divisions; ++local) {
+      PieceIndex small = triangle_piece(divisions, local);
+      if (at.inverted) small = {divisions - 1 - small.u, divisions - 1 - small.v, !small.inverted};
+      small.u += divisions * at.u;
+      small.v += divisions * at.v;
       mean.add(source.first + piece_around(source.width, small, fine), part);
     }
     mean.put(map);

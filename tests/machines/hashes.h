@@ -14,16 +14,16 @@ struct Hashes {
 };
 
 inline constexpr Hashes kHashes[] = {
-    {"box", 0x915a524483e3786e, 0xe885b5d2cc38959f},
+    {"box", 0x4c35700e370fd730, 0x4ecb82b59cb962f3},
     {"sun", 0x9e54c6cd4147ac22, 0x6973181985d668a5},
-    {"shapes", 0xbe116337c4344440, 0x4564159a356e8e54},
-    {"rules", 0x32a380f0ed61f205, 0x74822eaf9d05b3d3},
-    {"rule2+", 0xf0576b2d5e26b869, 0xa52898c5ff55a8bd},
-    {"blocks", 0x09a543aeb2e22008, 0x1e483c3b7cc910c1},
-    {"planes", 0x46d06a62b9397f3a, 0x9cf3347e51215359},
-    {"textures", 0xd59f1eab32955471, 0x9a330aa220930530},
-    {"glass", 0x30197b0573f5e29a, 0xecf67a77144a2a16},
-    {"day", 0xe27ad23c906dbb46, 0xcecfa2330786fde9},
+    {"shapes", 0x24153a29091d3235, 0xd76d3afd8021a9ba},
+    {"rules", 0x30dea8a99d6ae2fa, 0x3fe5d939bba065f7},
+    {"rule2+", 0xdfb09791b28fb876, 0x321b4ec4ad22423d},
+    {"blocks", 0xd5e2fc8e8771ffcf, 0x51a734b8827e7eed},
+    {"planes", 0x2657f9b744420f4a, 0x6b2b4aef7e349e1f},
+    {"textures", 0xc7f88426d5eac15d, 0x629dd66c4262b521},
+    {"glass", 0x5a66a6f452d1dada, 0xb6c333753702c185},
+    {"day", 0xb74e27fa735f471c, 0x7a146a491569bc1a},
 };
 
 }  // namespace machines
