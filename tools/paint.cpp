@@ -62,7 +62,7 @@ Colour planks(double x, double y) {
   const double along = y + start - floor_of(y + start);
   const double half = along < 0.5 ? 0 : 1, length = 2 * along - half;
   const std::int64_t which = static_cast<std::int64_t>(2 * board + half);
-  const double tone = 0.66 + 0.16 * random(which, 1, 12);
+  const double tone = 0.69 + 0.10 * random(which, 1, 12);
   const double grain = noise(5 * across + 37.0 * static_cast<double>(which), 3 * along, 13) - 0.5;
   const double fine = noise(14 * across + 53.0 * static_cast<double>(which), 9 * along, 14) - 0.5;
   const double edge = across < 0.5 ? across : 1 - across, end = length < 0.5 ? length : 1 - length;

@@ -179,7 +179,7 @@ bool Highlights::start(const Scene& scene, const Geometry& geometry, const RayTr
   for (Emitter& face : faces_) {
     const Piece piece = emitter_piece(scene, face);
     for (const Vec3& corner : piece.corner) {
-      face.whole.include(box_of(segment_end(scene, geometry, face, corner), kEndMargin));
+      face.whole.include(box_of(end_at(geometry.lattice, piece, corner), kEndMargin));
     }
   }
   return true;

@@ -8,6 +8,8 @@ namespace shodo {
 
 namespace {
 
+constexpr std::uint32_t kLeafTriangles = 5;  // half the boxes of a room that four take
+
 // Of Slabs, where 2^32 is the whole direction: inverses are off by at most 1, times 2^21 steps.
 constexpr std::int64_t kSlack = std::int64_t{1} << 22;
 
@@ -37,14 +39,14 @@ std::int64_t limit_of(const RayHit& hit) {
 }  // namespace
 
 std::uint64_t RayTree::bytes(std::uint64_t drawn) {
-  return (4 * drawn + 7) / 8 * 8 + sizeof(LatticeBox) * median_nodes(drawn);
+  return (4 * drawn + 7) / 8 * 8 + sizeof(LatticeBox) * median_nodes(drawn, kLeafTriangles);
 }
 
 bool RayTree::build(const Scene& scene, std::span<const DrawnTriangle> drawn, Arena& arena) {
   scene_ = &scene;
   drawn_ = drawn;
   if (!arena.take("triangles in the rays' order", drawn.size(), order_)) return false;
-  if (!arena.take("boxes for rays", median_nodes(drawn.size()), nodes_)) return false;
+  if (!arena.take("boxes for rays", median_nodes(drawn.size(), kLeafTriangles), nodes_)) return false;
   for (std::uint32_t k = 0; k < order_.size(); ++k) order_[k] = k;
   fill_median_boxes(nodes_, order_.size(), [this](const ItemRange& range, std::uint32_t cut) { split(range, cut); },
                     [this](std::uint32_t k) { return box_of(drawn_[order_[k]]); });

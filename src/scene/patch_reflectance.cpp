@@ -1,5 +1,7 @@
 #include "scene/patch_reflectance.h"
 
+#include <cstddef>
+
 #include "scene/mesh.h"
 #include "scene/texture.h"
 #include "scene/values.h"
@@ -10,6 +12,7 @@ namespace {
 
 constexpr double kMostAcross = 16;  // texels of a level, a patch
 constexpr std::uint32_t kParts = 8;  // along an edge of a triangular patch
+constexpr double kEven = 0.125;      // of a repeated pattern's mean
 
 /// A level of a mesh's texture, and how patches lie on it.
 struct PatternMean {
@@ -105,19 +108,37 @@ void add_triangle(const PatternMean& pattern, const PieceIndex& at, double (&sum
   for (std::uint32_t c = 0; c < 3; ++c) sum[c] += here[c] / (kParts * kParts);
 }
 
+/// The pattern's mean over a patch.
+void add_patch(const PatternMean& pattern, const Mesh& mesh, std::uint32_t local, double (&mean)[3]) {
+  const PieceIndex at = patch_index(mesh, local);
+  if (mesh.kind == MeshKind::kTriangle) return add_triangle(pattern, at, mean);
+  add_rectangle(pattern, at.u * pattern.u, (at.u + 1) * pattern.u, 1 - (at.v + 1) * pattern.v, 1 - at.v * pattern.v,
+                mean);
+}
+
+/// Whether the patches of a mesh have reflectances of their own.
+bool has_own(const Scene& scene, const Mesh& mesh) {
+  const std::uint32_t which = texture_of(scene, mesh);
+  if (which == kNone) return false;
+  if (scene.textures[which].size_u == 0) return true;
+  const PatternMean pattern(scene, mesh, scene.textures[which]);
+  for (std::uint32_t local = 0; local < mesh.patch_count(); ++local) {
+    double mean[3] = {0, 0, 0};
+    add_patch(pattern, mesh, local, mean);
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      if (mean[c] > (1 + kEven) * pattern.mean[c] || mean[c] < (1 - kEven) * pattern.mean[c]) return true;
+    }
+  }
+  return false;
+}
+
 void fill_mesh(const Scene& scene, TexturedMesh& textured, std::span<float> values) {
   const Mesh& mesh = scene.meshes[textured.mesh];
   const Rgb& diffuse = scene.materials[mesh.material].diffuse;
   const PatternMean pattern(scene, mesh, scene.textures[texture_of(scene, mesh)]);
   for (std::uint32_t local = 0; local < mesh.patch_count(); ++local) {
-    const PieceIndex at = patch_index(mesh, local);
     double mean[3] = {0, 0, 0};
-    if (mesh.kind == MeshKind::kTriangle) {
-      add_triangle(pattern, at, mean);
-    } else {
-      add_rectangle(pattern, at.u * pattern.u, (at.u + 1) * pattern.u, 1 - (at.v + 1) * pattern.v,
-                    1 - at.v * pattern.v, mean);
-    }
+    add_patch(pattern, mesh, local, mean);
     for (std::uint32_t c = 0; c < scene.channels; ++c) {
       const double rho = pattern.mean[c] > 0 ? diffuse.c[c] * mean[c] / pattern.mean[c] : 0;
       const float value = static_cast<float>(rho < kLargestReflectance ? rho : kLargestReflectance);
@@ -127,34 +148,57 @@ void fill_mesh(const Scene& scene, TexturedMesh& textured, std::span<float> valu
   }
 }
 
-}  // namespace
-
-bool find_patch_reflectances(Scene& scene, const Reader& reader, Arena& arena, Status& status) {
+/// With all texels in the arena.
+bool find_of_meshes(Scene& scene, Arena& arena, std::span<TexturedMesh>& textured, std::span<float>& reflectance) {
   std::size_t meshes = 0, values = 0;
   for (const Mesh& mesh : scene.meshes) {
-    if (texture_of(scene, mesh) == kNone) continue;
+    if (!has_own(scene, mesh)) continue;
     ++meshes;
     values += std::size_t{mesh.patch_count()} * scene.channels;
   }
-  if (meshes == 0) return true;
-  std::span<TexturedMesh> textured;
-  std::span<float> reflectance;
   if (!arena.take("meshes with textures", meshes, textured) ||
       !arena.take("reflectances of their patches", values, reflectance)) {
-    return status = arena.refused(), false;
+    return false;
   }
-  const ArenaScratch texels(arena);
-  if (!keep_texels(scene, reader, arena, status)) return false;
   std::uint32_t first = 0, next = 0;
-  for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
-    if (texture_of(scene, scene.meshes[m]) == kNone) continue;
+  for (std::uint32_t m = 0; m < scene.meshes.size() && next < textured.size(); ++m) {
+    if (!has_own(scene, scene.meshes[m])) continue;
     textured[next] = {m, first, {0, 0, 0}, 0};
     fill_mesh(scene, textured[next++], reflectance);
     first += scene.meshes[m].patch_count() * scene.channels;
   }
+  return true;
+}
+
+template <class T>
+std::span<T> moved_down(std::span<T> block, std::size_t bytes) {
+  if (block.empty()) return block;
+  return {reinterpret_cast<T*>(reinterpret_cast<std::byte*>(block.data()) - bytes), block.size()};
+}
+
+}  // namespace
+
+bool find_patch_reflectances(Scene& scene, const Reader& reader, Arena& arena, Status& status) {
+  std::uint64_t most = 0;  // bytes: which meshes are even is known with their texels only
+  for (const Mesh& mesh : scene.meshes) {
+    if (texture_of(scene, mesh) == kNone) continue;
+    most += sizeof(TexturedMesh) + 8 + 4 * std::uint64_t{mesh.patch_count()} * scene.channels;
+  }
+  if (most == 0) return true;
+  const Arena::Mark before = arena.mark();
+  if (!keep_texels(scene, reader, arena, status)) {
+    if (status.code == StatusCode::kMemory) status.bytes_needed += most;
+    return false;
+  }
+  const Arena::Mark after = arena.mark();
+  std::span<TexturedMesh> textured;
+  std::span<float> reflectance;
+  const bool found = find_of_meshes(scene, arena, textured, reflectance);
   forget_texels(scene);
-  scene.textured = textured;
-  scene.patch_reflectance = reflectance;
+  if (!found) return status = arena.refused(), false;
+  const std::size_t by = arena.lower(after, before);
+  scene.textured = moved_down(textured, by);
+  scene.patch_reflectance = moved_down(reflectance, by);
   return true;
 }
 

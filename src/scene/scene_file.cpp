@@ -29,11 +29,9 @@ bool check_cameras(const Scene& scene, Status& status, Wanted& wanted) {
 }
 
 /// Without effects the picture is drawn of illuminance maps and mean reflectances alone. What light may pass or be
-/// mirrored by stays, and so does the place of everything: maps are the same both ways, but for textured surfaces,
-/// which reflect their mean everywhere.
+/// mirrored by stays, and so does the place of everything and what patches reflect: maps are the same both ways.
 void leave_out_effects(Scene& scene) {
   scene.effects = false;
-  scene.textures = {};
   scene.background = {};
   scene.glass = {};
 }
@@ -48,7 +46,9 @@ bool finish(Scene& scene, const Options& options, const Reader& reader, Arena& a
   place_lights(scene);
   decide_channels(scene);
   if (!check_cameras(scene, status, wanted) || !decide_counts(scene, options, status, wanted)) return false;
-  return find_patch_reflectances(scene, reader, arena, status);
+  if (!find_patch_reflectances(scene, reader, arena, status)) return false;
+  if (!options.effects) scene.textures = {};
+  return true;
 }
 
 bool load(Words& words, const Options& options, const Reader& reader, Arena& arena, Scene& scene, Status& status) {

@@ -196,7 +196,7 @@ bool check_reflectance(const Scene& scene, const Texture& texture, Status& statu
 }
 
 bool is_used(const Scene& scene, const Texture& texture) {
-  if (texture.material == kNone) return true;
+  if (texture.material == kNone) return scene.effects;
   for (const Mesh& mesh : scene.meshes) {
     if (mesh.material == texture.material) return true;
   }
@@ -220,13 +220,15 @@ bool read_file(const Reader& reader, std::string_view path, PortableMap& map, St
   return read_portable_map(text, path, map, status);
 }
 
-bool load_texture(Scene& scene, const Reader& reader, Arena& arena, std::uint32_t k, Status& status) {
+bool take_linear(Scene& scene, Arena& arena, Status& status) {
+  if (!arena.take("linear values of texels", 256, scene.texture_linear)) return status = arena.refused(), false;
+  fill_linear(scene.texture_linear);
+  return true;
+}
+
+bool load_texture(Scene& scene, const Reader& reader, std::uint32_t k, Status& status) {
   Texture& texture = scene.textures[k];
   if (!is_used(scene, texture)) return true;
-  if (scene.texture_linear.empty()) {
-    if (!arena.take("linear values of texels", 256, scene.texture_linear)) return status = arena.refused(), false;
-    fill_linear(scene.texture_linear);
-  }
   if (const Texture* const other = same_file(scene, k); other != nullptr) {
     texture.width = other->width;
     texture.height = other->height;
@@ -308,13 +310,19 @@ TextureLevel texture_level(const Texture& texture, std::uint32_t level) {
 }
 
 bool load_textures(Scene& scene, const Reader& reader, Arena& arena, Status& status, std::uint32_t& at) {
-  for (at = 0; at < scene.textures.size(); ++at) {
-    if (!load_texture(scene, reader, arena, at, status)) return false;
-  }
-  return true;
+  if (scene.textures.empty()) return true;
+  const ArenaScratch scratch(arena);
+  if (!take_linear(scene, arena, status)) return false;
+  bool done = true;
+  for (at = 0; at < scene.textures.size() && done; ++at) done = load_texture(scene, reader, at, status);
+  if (!done) --at;
+  scene.texture_linear = {};
+  return done;
 }
 
 bool keep_texels(Scene& scene, const Reader& reader, Arena& arena, Status& status) {
+  if (scene.textures.empty()) return true;
+  if (!take_linear(scene, arena, status)) return false;
   for (std::uint32_t k = 0; k < scene.textures.size(); ++k) {
     if (!keep_texture(scene, reader, arena, k, status)) return false;
   }
@@ -322,11 +330,12 @@ bool keep_texels(Scene& scene, const Reader& reader, Arena& arena, Status& statu
 }
 
 void forget_texels(Scene& scene) {
+  scene.texture_linear = {};
   for (Texture& texture : scene.textures) texture.texels = {};
 }
 
 std::uint64_t texel_bytes(const Scene& scene) {
-  std::uint64_t sum = 0;
+  std::uint64_t sum = scene.textures.empty() ? 0 : 2 * 256;
   for (std::uint32_t k = 0; k < scene.textures.size(); ++k) {
     if (same_file(scene, k) == nullptr) sum += (texel_bytes(scene.textures[k]) + 7) / 8 * 8;
   }

@@ -10,8 +10,8 @@
 //
 // Loading a scene measures its textures and their parts on patches; texels are read again for each picture, so that light
 // has the memory.
-// Bytes, only for materials that some mesh has, once a file: 96 a texture statement and its path; 512 for the table of
-// linear values; while a picture is drawn about 4/3 of width height channels.
+// Bytes, only for materials that some mesh has, once a file: 96 a texture statement and its path; while a
+// picture is drawn 512 for the table of linear values and about 4/3 of width height channels.
 #pragma once
 
 #include <cstdint>

@@ -17,10 +17,10 @@ namespace shodo {
 inline constexpr std::uint32_t kLeafItems = 4;
 
 /// Nodes over so many items.
-constexpr std::uint32_t median_nodes(std::uint64_t items) {
+constexpr std::uint32_t median_nodes(std::uint64_t items, std::uint32_t leaf_items = kLeafItems) {
   if (items == 0) return 0;
   std::uint64_t leaves = 1;
-  while (items > kLeafItems * leaves) leaves *= 2;
+  while (items > leaf_items * leaves) leaves *= 2;
   return static_cast<std::uint32_t>(2 * leaves - 1);
 }
 

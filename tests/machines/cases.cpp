@@ -51,7 +51,7 @@ void room(Options& o) {
   o.width = 160;
   o.height = 128;
   o.rules.blocks = true;
-  o.effects = false;  // the room's textures are not compiled in
+  o.effects = false;  // without the outdoor picture; light asks for the textures
 }
 
 constexpr Case kCases[] = {

@@ -16,6 +16,11 @@ COMPILED_IN(file_tiles, "tests/cli/scenes/tiles.ppm");
 COMPILED_IN(file_glass, "tests/cli/scenes/glass.scn");
 COMPILED_IN(file_day, "data/day.scn");
 COMPILED_IN(file_room, "data/room.scn");
+COMPILED_IN(file_planks, "data/textures/planks.pgm");
+COMPILED_IN(file_cloth, "data/textures/cloth.pgm");
+COMPILED_IN(file_wood, "data/textures/wood.pgm");
+COMPILED_IN(file_rug, "data/textures/rug.ppm");
+COMPILED_IN(file_coast, "data/textures/coast.ppm");
 
 namespace machines {
 
@@ -37,6 +42,11 @@ constexpr File kFiles[] = {
     {"tests/cli/scenes/glass.scn", file_glass, file_glass_end},
     {"data/day.scn", file_day, file_day_end},
     {"room.scn", file_room, file_room_end},  // as day.scn calls it
+    {"textures/planks.pgm", file_planks, file_planks_end},
+    {"textures/cloth.pgm", file_cloth, file_cloth_end},
+    {"textures/wood.pgm", file_wood, file_wood_end},
+    {"textures/rug.ppm", file_rug, file_rug_end},
+    {"textures/coast.ppm", file_coast, file_coast_end},
 };
 
 }  // namespace
