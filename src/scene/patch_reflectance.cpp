@@ -179,11 +179,17 @@ std::span<T> moved_down(std::span<T> block, std::size_t bytes) {
 }  // namespace
 
 bool find_patch_reflectances(Scene& scene, const Reader& reader, Arena& arena, Status& status) {
-  bool any = false;
-  for (const Mesh& mesh : scene.meshes) any = any || texture_of(scene, mesh) != kNone;
-  if (!any) return true;
+  std::uint64_t most = 0;  // bytes: which meshes are even is known with their texels only
+  for (const Mesh& mesh : scene.meshes) {
+    if (texture_of(scene, mesh) == kNone) continue;
+    most += sizeof(TexturedMesh) + 8 + 4 * std::uint64_t{mesh.patch_count()} * scene.channels;
+  }
+  if (most == 0) return true;
   const Arena::Mark before = arena.mark();
-  if (!keep_texels(scene, reader, arena, status)) return false;
+  if (!keep_texels(scene, reader, arena, status)) {
+    if (status.code == StatusCode::kMemory) status.bytes_needed += most;
+    return false;
+  }
   const Arena::Mark after = arena.mark();
   std::span<TexturedMesh> textured;
   std::span<float> reflectance;
