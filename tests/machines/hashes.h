@@ -14,16 +14,16 @@ struct Hashes {
 };
 
 inline constexpr Hashes kHashes[] = {
-    {"box", 0x4c35700e370fd730, 0x4ecb82b59cb962f3},
+    {"box", 0x171f136a5a5c9a8e, 0xce14a372ca261786},
     {"sun", 0x9e54c6cd4147ac22, 0x6973181985d668a5},
-    {"shapes", 0x24153a29091d3235, 0xd76d3afd8021a9ba},
-    {"rules", 0x30dea8a99d6ae2fa, 0x3fe5d939bba065f7},
-    {"rule2+", 0xdfb09791b28fb876, 0x321b4ec4ad22423d},
-    {"blocks", 0xd5e2fc8e8771ffcf, 0x51a734b8827e7eed},
-    {"planes", 0x2657f9b744420f4a, 0x6b2b4aef7e349e1f},
-    {"textures", 0xc7f88426d5eac15d, 0x629dd66c4262b521},
+    {"shapes", 0xbe116337c4344440, 0x4564159a356e8e54},
+    {"rules", 0x38893717c94b46b8, 0x74822eaf9d05b3d3},
+    {"rule2+", 0xf73cddada5f963fd, 0x0d729b21cffe19fa},
+    {"blocks", 0x685fc36e6d123fb0, 0x1e483c3b7cc910c1},
+    {"planes", 0x19b9cb31c4a677a3, 0xbb0ed19ae748e346},
+    {"textures", 0x2c70bc679a65218c, 0x28145b20e51e651c},
     {"glass", 0x5a66a6f452d1dada, 0xb6c333753702c185},
-    {"day", 0xb74e27fa735f471c, 0x7a146a491569bc1a},
+    {"day", 0x098b7eed5f1fcaa3, 0x4014d8f7ef56bdd0},
 };
 
 }  // namespace machines

@@ -196,9 +196,10 @@ TEST(Texture, TooLittleMemoryNamesWhatWouldDo) {
   EXPECT_LT(enough.arena.used() + texel_bytes(enough.scene), scarce.status.bytes_needed + 8);
   std::span<std::uint8_t> room;
   ASSERT_TRUE(enough.arena.take("something else", enough.arena.left() - texel_bytes(enough.scene) + 8, room));
+  const std::uint64_t before = enough.arena.used();
   EXPECT_FALSE(keep_texels(enough.scene, reader_of(enough.files), enough.arena, enough.status));
   EXPECT_EQ(enough.status.code, StatusCode::kMemory);
-  EXPECT_EQ(enough.status.bytes_needed, enough.arena.used() + texel_bytes(enough.scene));
+  EXPECT_EQ(enough.status.bytes_needed, before + texel_bytes(enough.scene));
 }
 
 }  // namespace
