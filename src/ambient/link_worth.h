@@ -15,7 +15,7 @@
 
 namespace shodo {
 
-inline constexpr double kBlocksError = 2.1e-4;
+inline constexpr double kBlocksError = 2.3e-4;
 
 class LinkWorth {
  public:

@@ -19,11 +19,11 @@ inline constexpr Hashes kHashes[] = {
     {"shapes", 0xbe116337c4344440, 0x4564159a356e8e54},
     {"rules", 0x38893717c94b46b8, 0x74822eaf9d05b3d3},
     {"rule2+", 0xf73cddada5f963fd, 0x0d729b21cffe19fa},
-    {"blocks", 0x685fc36e6d123fb0, 0x1e483c3b7cc910c1},
+    {"blocks", 0x5da372a67cbf944a, 0x29045894871129d3},
     {"planes", 0x19b9cb31c4a677a3, 0xbb0ed19ae748e346},
     {"textures", 0x2c70bc679a65218c, 0x28145b20e51e651c},
     {"glass", 0x5a66a6f452d1dada, 0xb6c333753702c185},
-    {"day", 0x098b7eed5f1fcaa3, 0x4014d8f7ef56bdd0},
+    {"day", 0xcb003e6646715cd8, 0x2b6766f9bae2649f},
 };
 
 }  // namespace machines
