@@ -20,7 +20,7 @@
 
 namespace shodo {
 
-struct Model {
+struct alignas(8) Model {  // as the blocks behind it
   Model(void* memory, std::size_t bytes) : arena(memory, bytes) {}
 
   Arena arena;

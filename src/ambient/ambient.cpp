@@ -104,7 +104,8 @@ std::uint64_t smallest_ambient_bytes(const Scene& scene, const Geometry& geometr
                                      SurfacesKeep keep) {
   const std::uint64_t result = ambient_result_bytes(scene);
   const std::uint64_t before_rows = surfaces_bytes(scene, options, keep) + solver_bytes(scene, options);
-  return result + sizeof(AmbientWork) + before_rows + (scene.patch_count > 0 ? matrix_bytes(scene, geometry, options) : 0);
+  constexpr std::uint64_t kWork = (sizeof(AmbientWork) + 7) / 8 * 8;
+  return result + kWork + before_rows + (scene.patch_count > 0 ? matrix_bytes(scene, geometry, options) : 0);
 }
 
 std::uint64_t link_bytes(const Scene& scene, const Geometry& geometry, const Options& options) {

@@ -63,7 +63,7 @@ constexpr Case kCases[] = {
     {"blocks", "tests/cli/scenes/box.scn", blocks, Scarce::kIfFast, false, false},
     {"planes", "tests/cli/scenes/planes.scn", small, Scarce::kIfFast, false, false},
     {"textures", "tests/cli/scenes/textures.scn", small, Scarce::kNever, false, false},
-    {"glass", "tests/cli/scenes/glass.scn", small, Scarce::kNever, false, false},
+    {"glass", "tests/cli/scenes/glass.scn", small, Scarce::kNever, false, true},
     {"day", "data/day.scn", room, Scarce::kNever, false, false},
 };
 
