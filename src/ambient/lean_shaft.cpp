@@ -12,10 +12,10 @@ LeanShaft::LeanShaft(const LatticeBox& a, const LatticeBox& b) : around_(a) {
   around_.include(b);
   LatticeBox from, to;
   for (int k = 0; k < 3; ++k) {
-    from.low[k] = a.low[k] >> kSteps;
-    from.high[k] = (a.high[k] + (1 << kSteps) - 1) >> kSteps;
-    to.low[k] = b.low[k] >> kSteps;
-    to.high[k] = (b.high[k] + (1 << kSteps) - 1) >> kSteps;
+    from.low[k] = a.low[k] >> ShaftLine::kSteps;
+    from.high[k] = (a.high[k] + (1 << ShaftLine::kSteps) - 1) >> ShaftLine::kSteps;
+    to.low[k] = b.low[k] >> ShaftLine::kSteps;
+    to.high[k] = (b.high[k] + (1 << ShaftLine::kSteps) - 1) >> ShaftLine::kSteps;
   }
   add_lines(from, to, 0, 1);
   add_lines(from, to, 1, 2);
@@ -28,7 +28,7 @@ void LeanShaft::add_lines(const LatticeBox& a, const LatticeBox& b, std::uint32_
   const auto add = [&](bool high_u, bool high_v, std::int32_t au, std::int32_t av, std::int32_t du, std::int32_t dv) {
     if (du == 0 || dv == 0 || ((du ^ dv) >= 0) == (high_u == high_v)) return;  // a side of the common box
     const std::int32_t across = magnitude(dv), up = magnitude(du);
-    Line& line = lines_[lines_used_++];
+    ShaftLine& line = lines_[lines_used_++];
     line.normal_u = high_u ? across : -across;
     line.normal_v = high_v ? up : -up;
     line.u = static_cast<std::uint32_t>(sizeof(std::int32_t)) * (high_u ? u : u + 3);

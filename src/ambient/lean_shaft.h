@@ -8,10 +8,10 @@
 // Stack: 300 bytes.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 #include "visibility/lattice_box.h"
+#include "visibility/shaft_line.h"
 
 namespace shodo {
 
@@ -26,10 +26,10 @@ class LeanShaft {
   /// neighbours of the box mostly fall to the same.
   bool cuts_off(const LatticeBox& box) {
     if (lines_used_ == 0) return false;
-    if (beyond(lines_[0], box)) return true;
+    if (lines_[0].rules_out(box)) return true;
     for (std::uint32_t k = 1; k < lines_used_; ++k) {
-      if (!beyond(lines_[k], box)) continue;
-      const Line line = lines_[k];
+      if (!lines_[k].rules_out(box)) continue;
+      const ShaftLine line = lines_[k];
       lines_[k] = lines_[0];
       lines_[0] = line;
       return true;
@@ -38,25 +38,10 @@ class LeanShaft {
   }
 
  private:
-  static constexpr int kSteps = 6;  // of the lattice in one, log2
-  /// Beyond: normal_u u + normal_v v > limit, u and v of the box's nearest corner.
-  struct Line {
-    std::int32_t normal_u, normal_v, limit;
-    std::uint32_t u, v;  // bounds of a box, by their offset in it
-  };
-  static_assert(offsetof(LatticeBox, low) == 0 && offsetof(LatticeBox, high) == 12 && sizeof(LatticeBox) == 24);
-
-  static std::int32_t bound(const LatticeBox& box, std::uint32_t offset) {
-    const auto* byte = reinterpret_cast<const unsigned char*>(&box) + offset;
-    return *reinterpret_cast<const std::int32_t*>(byte) >> kSteps;
-  }
-  static bool beyond(const Line& line, const LatticeBox& box) {
-    return line.normal_u * bound(box, line.u) + line.normal_v * bound(box, line.v) > line.limit;
-  }
   void add_lines(const LatticeBox& a, const LatticeBox& b, std::uint32_t u, std::uint32_t v);
 
   LatticeBox around_;
-  Line lines_[12];
+  ShaftLine lines_[12];
   std::uint32_t lines_used_ = 0;
 };
 

@@ -18,8 +18,8 @@ Shaft Shaft::along(const LatticeBox& a, const LatticeVector& direction) {
 /// along the line's normal: the normal's signs must be those of the corner. The normal is square to the way (du, dv)
 /// from the one to the other.
 void Shaft::add_lines(std::uint32_t u, std::uint32_t v) {
-  const auto low = [](std::int32_t x) { return x >> kSteps; };
-  const auto high = [](std::int32_t x) { return (x + (1 << kSteps) - 1) >> kSteps; };
+  const auto low = [](std::int32_t x) { return x >> ShaftLine::kSteps; };
+  const auto high = [](std::int32_t x) { return (x + (1 << ShaftLine::kSteps) - 1) >> ShaftLine::kSteps; };
   const std::int32_t a_u[2] = {low(a_.low[u]), high(a_.high[u])}, a_v[2] = {low(a_.low[v]), high(a_.high[v])};
   const std::int32_t way_u[2] = {low(b_.low[u]) - a_u[0], high(b_.high[u]) - a_u[1]};
   const std::int32_t way_v[2] = {low(b_.low[v]) - a_v[0], high(b_.high[v]) - a_v[1]};
@@ -30,7 +30,7 @@ void Shaft::add_lines(std::uint32_t u, std::uint32_t v) {
     const bool rising = (du > 0) == (dv > 0);
     if (rising == (high_u == high_v)) continue;
     const std::int32_t size_u = dv < 0 ? -dv : dv, size_v = du < 0 ? -du : du;
-    Line& line = lines_[lines_used_++];
+    ShaftLine& line = lines_[lines_used_++];
     line.u = 4 * (high_u != 0 ? u : 3 + u);
     line.v = 4 * (high_v != 0 ? v : 3 + v);
     line.normal_u = high_u != 0 ? size_u : -size_u;
@@ -50,7 +50,7 @@ void Shaft::find_lines() {
 bool Shaft::beyond_a_line(const LatticeBox& box) {
   if (lines_used_ == kNotYet) find_lines();
   for (std::uint32_t k = 0; k < lines_used_; ++k) {
-    if (!beyond(lines_[k], box)) continue;
+    if (!lines_[k].rules_out(box)) continue;
     if (k > 0) std::swap(lines_[k], lines_[0]);
     return true;
   }

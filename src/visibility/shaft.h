@@ -9,10 +9,10 @@
 // along the direction, which reaches out of the lattice's cube. Stack: 330 bytes.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 #include "visibility/lattice_box.h"
+#include "visibility/shaft_line.h"
 
 namespace shodo {
 
@@ -28,28 +28,13 @@ class Shaft {
   bool misses(const LatticeBox& box) { return apart(around_, box) || beyond_a_line(box); }
 
  private:
-  static constexpr int kSteps = 6;  // of the lattice in one, log2
-  /// Beyond: normal_u u + normal_v v > limit, u and v of the box's nearest corner.
-  struct Line {
-    std::int32_t normal_u, normal_v, limit;
-    std::uint32_t u, v;  // bounds of a box, by their offset in it
-  };
-  static_assert(offsetof(LatticeBox, low) == 0 && offsetof(LatticeBox, high) == 12 && sizeof(LatticeBox) == 24);
-
-  static std::int32_t bound(const LatticeBox& box, std::uint32_t offset) {
-    const auto* byte = reinterpret_cast<const unsigned char*>(&box) + offset;
-    return *reinterpret_cast<const std::int32_t*>(byte) >> kSteps;
-  }
-  static bool beyond(const Line& line, const LatticeBox& box) {
-    return line.normal_u * bound(box, line.u) + line.normal_v * bound(box, line.v) > line.limit;
-  }
   /// The line that rejects is tried first from then on: neighbours of the box mostly fall to the same.
   bool beyond_a_line(const LatticeBox& box);
   void find_lines();
   void add_lines(std::uint32_t u, std::uint32_t v);
 
   LatticeBox a_, b_, around_;
-  Line lines_[12];
+  ShaftLine lines_[12];
   std::uint32_t lines_used_ = kNotYet;  // found when a box asks that the common box does not rule out
   static constexpr std::uint32_t kNotYet = 0xFFFFFFFF;
 };

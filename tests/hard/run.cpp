@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "shodo/shodo.h"
+#include "support/collected_lines.h"
 
 namespace shodo::hard {
 
@@ -70,12 +71,7 @@ std::vector<std::uint64_t> FullRun::bits() const {
 
 std::vector<std::uint8_t> FullRun::picture() {
   std::vector<std::uint8_t> all;
-  const LineSink sink{[](void* to, std::uint32_t, std::span<const std::uint8_t> rgb) {
-                        auto& pixels = *static_cast<std::vector<std::uint8_t>*>(to);
-                        pixels.insert(pixels.end(), rgb.begin(), rgb.end());
-                        return true;
-                      },
-                      &all};
+  const LineSink sink = collected_in(all);
   status = draw(*model_, {}, sink);
   if (!status.done()) all.clear();
   return all;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "model.h"
+#include "support/collected_lines.h"
 #include "support/scene_from_text.h"
 
 namespace shodo {
@@ -44,12 +45,7 @@ struct DrawnRun {
   }
   std::vector<std::uint8_t> picture() {
     std::vector<std::uint8_t> pixels;
-    const LineSink sink{[](void* to, std::uint32_t, std::span<const std::uint8_t> rgb) {
-                          auto& all = *static_cast<std::vector<std::uint8_t>*>(to);
-                          all.insert(all.end(), rgb.begin(), rgb.end());
-                          return true;
-                        },
-                        &pixels};
+    const LineSink sink = collected_in(pixels);
     status = draw(*model, {}, sink);
     return pixels;
   }

@@ -11,6 +11,7 @@
 #include "picture/picture.h"
 #include "picture/textured.h"
 #include "picture/view.h"
+#include "support/collected_lines.h"
 #include "support/files.h"
 #include "support/picture_twin.h"
 #include "support/kept_scene.h"
@@ -35,12 +36,7 @@ struct TexturedScene {
 
   std::vector<std::uint8_t> draw() {
     std::vector<std::uint8_t> rgb;
-    const LineSink sink{[](void* context, std::uint32_t, std::span<const std::uint8_t> line) {
-                          auto& all = *static_cast<std::vector<std::uint8_t>*>(context);
-                          all.insert(all.end(), line.begin(), line.end());
-                          return true;
-                        },
-                        &rgb};
+    const LineSink sink = collected_in(rgb);
     const std::uint64_t bytes = picture_bytes(loaded.scene, geometry, options);
     const Arena::Mark before = loaded.arena.mark();
     EXPECT_TRUE(draw_picture(loaded.scene, geometry, maps, options, {}, loaded.arena, sink).done());

@@ -8,6 +8,7 @@
 #include "model.h"
 #include "picture/display.h"
 #include "picture/view.h"
+#include "support/collected_lines.h"
 #include "support/files.h"
 #include "support/picture_twin.h"
 
@@ -29,12 +30,7 @@ struct SolvedRoom {
   }
   std::vector<std::uint8_t> picture() {
     std::vector<std::uint8_t> rgb;
-    const LineSink sink{[](void* context, std::uint32_t, std::span<const std::uint8_t> line) {
-                          auto& all = *static_cast<std::vector<std::uint8_t>*>(context);
-                          all.insert(all.end(), line.begin(), line.end());
-                          return true;
-                        },
-                        &rgb};
+    const LineSink sink = collected_in(rgb);
     EXPECT_TRUE(draw(*model, {}, sink).done());
     return rgb;
   }

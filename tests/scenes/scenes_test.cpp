@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "cli/summary.h"
+#include "support/collected_lines.h"
 #include "support/files.h"
 #include "support/solved_scene.h"
 
@@ -99,12 +100,7 @@ struct DataScene : SolvedScene {
 
   std::vector<std::uint8_t> picture() {
     std::vector<std::uint8_t> pixels;
-    const LineSink sink{[](void* to, std::uint32_t, std::span<const std::uint8_t> rgb) {
-                          auto& all = *static_cast<std::vector<std::uint8_t>*>(to);
-                          all.insert(all.end(), rgb.begin(), rgb.end());
-                          return true;
-                        },
-                        &pixels};
+    const LineSink sink = collected_in(pixels);
     EXPECT_TRUE(draw(*model, {}, sink).done());
     return pixels;
   }
