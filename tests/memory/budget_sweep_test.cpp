@@ -19,7 +19,7 @@ struct Sweep {
 
   std::string scene;
   Rules rules;
-  bool gather = false;
+  bool gather = false, mirror_light = false;
   std::uint32_t refused = 0, done = 0, lit_again = 0, placed_again = 0, geometry_again = 0, rows_recomputed = 0;
 
   /// The picture, or nothing if the budget is refused, as it must be before anything is lit.
@@ -30,6 +30,7 @@ struct Sweep {
     Options options;
     options.rules = rules;
     options.gather = gather;
+    options.mirror_light = mirror_light;
     options.gather_error = 2e-2;
     options.width = 32;
     options.height = 24;
@@ -70,13 +71,13 @@ struct Sweep {
   std::vector<std::uint64_t> memory_ = std::vector<std::uint64_t>(kTwiceTheDefault / 8 + 64 * 1024);
 };
 
-/// `step`: of the budget, in parts of it.
-void sweep(Sweep& sweep, std::uint64_t step) {
+/// `step`: of the budget, in parts of it; from `percent_below` the smallest budget on.
+void sweep(Sweep& sweep, std::uint64_t step, std::uint64_t percent_below = 10) {
   std::uint64_t smallest = 0, none = 0;
   const auto expected = sweep.run(kTwiceTheDefault, smallest);
   ASSERT_TRUE(expected.has_value());
   sweep.done = 0;
-  for (std::uint64_t bytes = smallest - smallest / 10; bytes <= kTwiceTheDefault; bytes += bytes / step) {
+  for (std::uint64_t bytes = smallest - smallest * percent_below / 100; bytes <= kTwiceTheDefault; bytes += bytes / step) {
     const auto picture = sweep.run(bytes, none);
     ASSERT_EQ(picture.has_value(), bytes >= smallest) << bytes << " of " << smallest;
     ASSERT_TRUE(!picture.has_value() || *picture == *expected) << bytes << " bytes";
@@ -85,7 +86,10 @@ void sweep(Sweep& sweep, std::uint64_t step) {
   EXPECT_FALSE(sweep.run(smallest - 1, none).has_value());
   EXPECT_GT(sweep.refused, step / 12);
   EXPECT_GT(sweep.done, 3 * step);
-  // The sweep has passed through everything that a small budget does.
+}
+
+/// The sweep has passed through everything that a small budget does.
+void expect_scarcity(const Sweep& sweep) {
   EXPECT_GT(sweep.lit_again, 0u);
   EXPECT_GT(sweep.placed_again, 0u);
   EXPECT_TRUE(sweep.geometry_again > 0 || !sweep.rules.blocks);
@@ -97,22 +101,44 @@ void sweep(Sweep& sweep, std::uint64_t step) {
 TEST(BudgetSweep, EveryBudgetGivesTheSameBytesOrIsRefused) {
   Sweep box("box.scn", {});
   sweep(box, 100);
+  expect_scarcity(box);
 }
 
 TEST(BudgetSweep, EveryBudgetGivesTheSameBytesWithBlocksToo) {
   Sweep shapes("shapes.scn", {.blocks = true});
   sweep(shapes, 100);
+  expect_scarcity(shapes);
 }
 
 TEST(BudgetSweep, EveryBudgetGivesTheSameBytesWhereSubPatchesGather) {
   Sweep shapes("shapes.scn", {.blocks = true});
   shapes.gather = true;
   sweep(shapes, 20);
+  expect_scarcity(shapes);
 }
 
 TEST(BudgetSweep, EveryBudgetGivesTheSameBytesWhenColumnsComeBack) {
   Sweep box("box.scn", {.rule2_repeated = true});
   sweep(box, 20);
+  expect_scarcity(box);
+}
+
+// Here the picture needs more than all rows, so that few budgets are scarce for light.
+
+TEST(BudgetSweep, EveryBudgetGivesTheSameBytesWithTextures) {
+  Sweep textures("textures.scn", {.blocks = true});
+  sweep(textures, 20);
+}
+
+TEST(BudgetSweep, EveryBudgetGivesTheSameBytesWithPanesMirrorsAndHighlights) {
+  Sweep glass("glass.scn", {.blocks = true});
+  sweep(glass, 20);
+}
+
+TEST(BudgetSweep, EveryBudgetGivesTheSameBytesWithLightOverMirrors) {
+  Sweep glass("glass.scn", {});
+  glass.mirror_light = true;
+  sweep(glass, 10, 60);  // light alone needs much less than the picture
 }
 
 }  // namespace
