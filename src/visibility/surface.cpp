@@ -112,7 +112,7 @@ Reach reach_of(const Placement& placement, const PolygonTree& tree, const Surfac
   tree.visit([&](const LatticeBox& box) { return box.contains(at, kSearchMargin); },
              [&](std::uint32_t polygon) {
                const SiteRing& ring = placement.rings[polygon];
-               if (!ring.blocks || !polygon_box(placement, polygon).contains(at, 0)) return;
+               if (!ring.blocks) return;
                if (!in_ring(placement, polygon, a) || !in_ring(placement, polygon, b)) return;
                bool off = false;
                for (std::uint32_t k = 0; k < ring.corners; ++k) {

@@ -13,6 +13,7 @@ using namespace shodo;
 
 constexpr std::size_t kSmall = 300 << 10, kLarge = 8 << 20;
 constexpr std::uint64_t kMostReports = 400;  // of progress
+constexpr std::uint32_t kMostSubPatches = 8000;
 alignas(16) unsigned char g_memory[kLarge];
 
 /// The words of a line behind "shodo", each ended by a zero.
@@ -70,7 +71,7 @@ Outcome run(std::string_view input, const Options& options, std::size_t bytes) {
                           &reports};
   Model* model = nullptr;
   outcome.status = load("top.scn", files.top(), files.reader(), options, g_memory, bytes, model);
-  if (!outcome.status.done()) return outcome;
+  if (!outcome.status.done() || model->scene.sub_patch_count > kMostSubPatches) return outcome;
   const bool enough = smallest_memory(*model) <= bytes;
   outcome.status = solve(*model, progress);
   if (!outcome.status.done()) {
