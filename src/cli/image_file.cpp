@@ -7,14 +7,21 @@
 
 namespace {
 
-/// Memory for stb_image: zeros, since it leaves what a cut file doesn't tell as it was, and never so much for one
-/// block that a few wrong bytes can ask for gigabytes.
-constexpr std::size_t kLargestBlock = std::size_t{512} << 20;
+/// The largest block that stb_image may have: what its file and its picture can need, so that a few wrong bytes (a
+/// chunk said to be longer than the file) can't ask for much.
+thread_local std::size_t t_largest_block = 0;
 
-void* zeroed(std::size_t bytes) { return bytes <= kLargestBlock ? std::calloc(1, bytes) : nullptr; }
+/// The compressed bytes stand once, doubled while they are collected; a texel takes up to 4 values of 2 bytes, doubled
+/// while they are inflated, and JPEG rounds each side up to whole blocks.
+std::size_t largest_block(std::size_t file, int width, int height) {
+  return 2 * file + 16 * static_cast<std::size_t>(width + 64) * static_cast<std::size_t>(height + 64) + 65536;
+}
+
+/// Memory for stb_image: zeros, since it leaves what a cut file doesn't tell as it was.
+void* zeroed(std::size_t bytes) { return bytes <= t_largest_block ? std::calloc(1, bytes) : nullptr; }
 
 void* zeroed_again(void* block, std::size_t before, std::size_t bytes) {
-  if (bytes > kLargestBlock) return nullptr;
+  if (bytes > t_largest_block) return nullptr;
   auto* moved = static_cast<char*>(std::realloc(block, bytes));
   if (moved != nullptr && bytes > before) std::memset(moved + before, 0, bytes - before);
   return moved;
@@ -61,8 +68,10 @@ bool decode_image(std::string_view file, std::string& ppm, int most) {
   const auto* bytes_of_file = reinterpret_cast<const stbi_uc*>(file.data());
   const int size = static_cast<int>(file.size());
   int width = 0, height = 0, channels = 0;
+  t_largest_block = largest_block(file.size(), 0, 0);
   if (stbi_info_from_memory(bytes_of_file, size, &width, &height, &channels) == 0) return false;
   if (width > most || height > most) return false;
+  t_largest_block = largest_block(file.size(), width, height);
   const std::unique_ptr<stbi_uc, void (*)(void*)> texels(
       stbi_load_from_memory(bytes_of_file, size, &width, &height, &channels, 3), stbi_image_free);
   if (texels == nullptr) return false;

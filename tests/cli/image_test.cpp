@@ -2,6 +2,7 @@
 #include "cli/image_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <vector>
 
@@ -45,6 +46,29 @@ TEST(ImageFile, PngAndTgaBecomeThePpmOfTheirTexels) {
     EXPECT_TRUE(decode_image(file, ppm));
     EXPECT_EQ(ppm, expected);
   }
+}
+
+// The texels take a thousand times the bytes of the file.
+TEST(ImageFile, WhatIsEvenIsSmallAndStillReadWhole) {
+  for (const std::uint32_t side : {1u, 40u, 1500u}) {
+    const std::string rgb(std::size_t{3} * side * (side + 1), 'g');
+    std::string ppm;
+    ASSERT_TRUE(decode_image(png_of(rgb, side, side + 1), ppm)) << side;
+    EXPECT_TRUE(ppm.ends_with(rgb));
+  }
+}
+
+// A chunk of a gigabyte in a file of 57 bytes: nothing is asked for that the file can't fill.
+TEST(ImageFile, AChunkLongerThanItsFileTakesNoMemory) {
+  std::string file = png_of(texels(7 * 5), 7, 5);
+  const std::size_t length = file.find("IDAT") - 4;
+  file[length] = '\x3f';
+  rusage before{}, after{};
+  getrusage(RUSAGE_SELF, &before);
+  std::string ppm;
+  EXPECT_FALSE(decode_image(file, ppm));
+  getrusage(RUSAGE_SELF, &after);
+  EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 100'000);  // KiB
 }
 
 TEST(ImageFile, CutAndForeignFilesAreRefused) {
