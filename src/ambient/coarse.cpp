@@ -53,8 +53,8 @@ void include(const Scene& scene, const Mesh& mesh, Vec3& low, Vec3& high) {
   }
 }
 
-/// None (any() is false) where there are many meshes or the scene is about as long as wide and high; else at most `most`,
-/// always cutting where cells are longest.
+/// None (any() is false) where there are many meshes or the scene is about as long as wide and high; else at most
+/// `most`, always cutting where cells are longest.
 Cells cells_of(const Scene& scene) {
   Cells cells;
   cells.count[0] = 0;

@@ -10,14 +10,14 @@
 // precision and the few steps cost speed of convergence only: sweeps decide what the solution is.
 //
 // What is a group:
-//     - in a scene more than four times as long as wide or high (a corridor, plates near each other): what lies in a cell
-//       of space. Light goes along it in small steps, and a ring of walls has one value there;
-//     - else where there are few meshes and no blocks: e x e patches of a mesh, e the least with which there are at most
-//       kMostParts;
+//     - in a scene more than four times as long as wide or high (a corridor, plates near each other): what lies in a
+//       cell of space. Light goes along it in small steps, and a ring of walls has one value there;
+//     - else where there are few meshes and no blocks: e x e patches of a mesh, e the least with which there are at
+//       most kMostParts;
 //     - else a mesh; more than kMostGroups meshes share values, neighbours in the order of ambient/surfaces.h.
 // In the first two a group has four patches at least on the average. A block that reaches over several cells has its
-// share of exchange in each, by area. Rules that don't look at the memory, so that a smaller budget sweeps the same way.
-// Bytes: 4 g (g + 1) / 2 + 8 g (4 + channels), g <= 96: 23 KiB; and 1 a node where groups aren't meshes.
+// share of exchange in each, by area. Rules that don't look at the memory, so that a smaller budget sweeps the same
+// way. Bytes: 4 g (g + 1) / 2 + 8 g (4 + channels), g <= 96: 23 KiB; and 1 a node where groups aren't meshes.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +45,9 @@ class Coarse {
     return static_cast<std::uint32_t>(std::uint64_t{k} * groups_ / meshes_);
   }
   /// Of a node, given group_of_mesh() of its mesh.
-  std::uint32_t group(std::uint32_t node, std::uint32_t of_mesh) const { return group_of_.empty() ? of_mesh : group_of_[node]; }
+  std::uint32_t group(std::uint32_t node, std::uint32_t of_mesh) const {
+    return group_of_.empty() ? of_mesh : group_of_[node];
+  }
   std::uint32_t group_at(std::uint32_t node, std::uint32_t k) const { return group(node, group_of_mesh(k)); }
 
   /// Adds G_ij V_ij of a pair.

@@ -64,7 +64,8 @@ TEST(GaussSeidel, TheRowSumsBehindTheBoundAreThoseOfTheStoredMatrix) {
           for (std::uint32_t b = 0; b < stored.matrix.surfaces.size(); ++b) {
             if (stored.matrix.surfaces.is_block(b)) continue;
             const std::size_t j = stored.matrix.surfaces.patch_at[b];
-            const double sent = stored.form_factor(i, j) * s.materials[s.meshes[scene.patches[j].mesh].material].diffuse.c[c];
+            const Material& material = s.materials[s.meshes[scene.patches[j].mesh].material];
+            const double sent = stored.form_factor(i, j) * material.diffuse.c[c];
             sum += sent;
             above += b > a ? sent : 0;
           }

@@ -357,7 +357,8 @@ TEST(StatisticsFile, CountsPlatesNearerThanTheLatticeTells) {
   // 1e-6 thick don't face each other. In the least budget the triangles make room before the file is written.
   const TestFolder folder;
   folder.write("plates.scn", "shodo 1\nmaterial white diffuse 0.5\nobject all\n"
-                             "quad white 0 0 0  1 0 0  1 1 0  0 1 0\nquad white 0 0 1e-6  0 1 1e-6  1 1 1e-6  1 0 1e-6\n"
+                             "quad white 0 0 0  1 0 0  1 1 0  0 1 0\n"
+                             "quad white 0 0 1e-6  0 1 1e-6  1 1 1e-6  1 0 1e-6\n"
                              "quad white 0 0 0.5  1 0 0.5  1 1 0.5  0 1 0.5\n"
                              "quad white 0 0 0.50001  0 1 0.50001  1 1 0.50001  1 0 0.50001\n"
                              "quad white 0 0 0.8  0 1 0.8  1 1 0.8  1 0 0.8\n"
@@ -413,7 +414,8 @@ TEST(Check, WarnsOfPlatesThatFaceEachOtherNearerThanTheLatticeTells) {
   // A step is 3.8e-6 here.
   const auto warned = [&](const std::string& second) {
     folder.write("x.scn", "shodo 1\nunit m\ncamera c eye 0.5 -2 0.5 look 0.5 0 0 up 0 0 1 fov 60\n"
-                          "material grey diffuse 0.5\nobject a\nquad grey 0 0 0  1 0 0  1 1 0  0 1 0 patches 2 2 sub 1 1\n"
+                          "material grey diffuse 0.5\n"
+                          "object a\nquad grey 0 0 0  1 0 0  1 1 0  0 1 0 patches 2 2 sub 1 1\n"
                           "object b\n" + second + " patches 2 2 sub 1 1\n"
                           "light l point at 0.5 0.5 -1 intensity 100\n");
     const Outcome check = run({"check", "x.scn"}, folder.path());
