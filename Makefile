@@ -158,7 +158,7 @@ soak: $(BUILD)/tests
 	@sh tests/fuzz/run 1800
 	SHODO_SOAK=50 $(BUILD)/tests --gtest_filter='TriangleTest.*:Leaks.*'
 
-# The core's code with one sign changed, and whether the tests see it: out/mutants.csv; an hour. MUTANTS: tests/mutants/run.
+# The core's code with one sign changed, and whether the tests see it: out/mutants.csv. MUTANTS, JOBS: tests/mutants/run.
 MUTANTS =
 mutants: $(BUILD)/shodo $(BUILD)/tests
 	@BUILD=$(BUILD) OUT=$(OUT) COMPILE='$(CXX) $(LIBRARY_FLAGS) $(CXXFLAGS)' LINK='$(CXX) $(OPT) $(CXXFLAGS) $(LDFLAGS)' \

@@ -104,7 +104,9 @@ const char* plan_stage_name(PlanStage stage) {
 PartText plan_part_text(PlanPart part) {
   static constexpr PartText kTexts[] = {
       {"the model", "its structure, and up to 7 for alignment"},
-      {"scene", "40 materials + 40 objects + 56 meshes + 24 vertices + 260 lights + 96 cameras + 136 planes + names; 24 textured meshes + 4 c a patch of one"},
+      {"scene",
+       "40 materials + 40 objects + 56 meshes + 24 vertices + 260 lights + 96 cameras + 136 planes + names; "
+       "24 textured meshes + 4 c a patch of one"},
       {"triangles that block", "72 triangles + 8 polygons + 4 meshes + 8 lights"},
       {"triangles of the picture", "68 drawn triangles; spare: given up while there is light to find"},
       {"while placing", "16 vertices + 24 polygons + 12 insertions + a tree; then 72 n, the patches"},
@@ -130,7 +132,8 @@ PartText plan_part_text(PlanPart part) {
       {"spreading over a mesh, or gathering",
        "9 a patch + 8 a row of sub-patches, of the largest mesh; --gather: surfaces + possible blockers + 4 c blocks + "
        "2 a node + 16,384 + 4 facets + 48 objects + 9,000"},
-      {"drawing, or placing again", "2 c s + 8193 + (4 c + 3) width + 4 rows + 10 drawn + 208 active triangles; textures: 4/3 of their texels"},
+      {"drawing, or placing again",
+       "2 c s + 8193 + (4 c + 3) width + 4 rows + 10 drawn + 208 active triangles; textures: 4/3 of their texels"},
   };
   static_assert(sizeof kTexts / sizeof(PartText) == static_cast<std::size_t>(PlanPart::kDrawing) + 1);
   return kTexts[static_cast<std::size_t>(part)];

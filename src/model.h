@@ -53,8 +53,9 @@ struct alignas(8) Model {  // as the blocks behind it
 
 /// What every sample of the picture of a solved model sees. Errors: as draw().
 Status see(Model& model, const Progress& progress, const SeenSink& sink);
-/// The steps of load(), solve() and draw(), in this order. What one leaves to the next lies in the model, so that a machine
-/// with little memory for code can hold one at a time (doc/determinism.md). Errors: those of load(), solve() and draw().
+/// The steps of load(), solve() and draw(), in this order. What one leaves to the next lies in the model, so that a
+/// machine with little memory for code can hold one at a time (doc/determinism.md). Errors: those of load(), solve()
+/// and draw().
 Status start_loading(std::string_view name, std::string_view text, const Reader& reader, const Options& options,
                      void* memory, std::size_t bytes, Model*& model);
 Status finish_loading(Model& model);

@@ -21,7 +21,9 @@ struct Rules {
 
 struct Options {
   /// Whether sub-patches gather.
-  constexpr bool gathers() const { return gather && !rules.rule1 && !rules.rule2 && !rules.rule2_repeated && !rules.rule3; }
+  constexpr bool gathers() const {
+    return gather && !rules.rule1 && !rules.rule2 && !rules.rule2_repeated && !rules.rule3;
+  }
 
   FlagMode flags = FlagMode::kAuto;     // lossless; the rules are none (deviation D9)
   Rules rules;

@@ -23,7 +23,6 @@ struct Statistics {
   std::uint32_t patches_dropped = 0;      // thinner than 4 lattice steps
   std::uint32_t patches_thin = 0;         // thinner than 32 lattice steps: samples of their middle half only
   std::uint32_t polygons_dropped = 0;     // no area
-  std::uint32_t coplanar_overlaps = 0;    // pairs of polygons, counted by check
   std::uint32_t lights_clamped = 0;       // point lights within one lattice step of a sample
   std::uint64_t segments_direct = 0;
   std::uint64_t segments_ambient = 0;

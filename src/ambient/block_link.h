@@ -47,7 +47,7 @@ struct BlockTools {
 struct BlockLink {
   PairExchange pair;
   VisibleFraction visible;
-  double vary_i = 0, vary_j = 0;  // d^2 of an end that is a block: its parts get the mean, and miss so much of their own
+  double vary_i = 0, vary_j = 0;  // d^2 of an end that is a block: its parts get the mean, and miss so much
 };
 
 /// Judges the pairs of one node after the other.

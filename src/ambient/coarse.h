@@ -9,11 +9,15 @@
 // sum over j > i of M_ij (new_j - old_j); the mean change of each group stands for those of its patches. That, single
 // precision and the few steps cost speed of convergence only: sweeps decide what the solution is.
 //
-// A group is a mesh. More than kMostGroups meshes share values, neighbours in the order of ambient/surfaces.h; where
-// there are few and no blocks, meshes are cut into parts of e x e patches, e the least with which there are at most
-// kMostParts, and four patches for each: long or near walls exchange light in more ways than one value can follow.
-// Rules that don't look at the memory, so that a smaller budget sweeps the same way. Bytes: 4 g (g + 1) / 2 + 8 g (4 +
-// channels), g <= 96: 23 KiB; and 1 a patch where meshes are cut.
+// What is a group:
+//     - in a scene more than four times as long as wide or high (a corridor, plates near each other): what lies in a
+//       cell of space. Light goes along it in small steps, and a ring of walls has one value there;
+//     - else where there are few meshes and no blocks: e x e patches of a mesh, e the least with which there are at
+//       most kMostParts;
+//     - else a mesh; more than kMostGroups meshes share values, neighbours in the order of ambient/surfaces.h.
+// In the first two a group has four patches at least on the average. A block that reaches over several cells has its
+// share of exchange in each, by area. Rules that don't look at the memory, so that a smaller budget sweeps the same
+// way. Bytes: 4 g (g + 1) / 2 + 8 g (4 + channels), g <= 96: 23 KiB; and 1 a node where groups aren't meshes.
 #pragma once
 
 #include <cstdint>
@@ -36,17 +40,28 @@ class Coarse {
   /// Starts over with the sums.
   void forget();
   std::uint32_t groups() const { return groups_; }
-  /// Of mesh_at[k], where meshes aren't cut.
+  /// Of mesh_at[k], where groups are meshes.
   std::uint32_t group_of_mesh(std::uint32_t k) const {
     return static_cast<std::uint32_t>(std::uint64_t{k} * groups_ / meshes_);
   }
   /// Of a node, given group_of_mesh() of its mesh.
-  std::uint32_t group(std::uint32_t node, std::uint32_t of_mesh) const { return part_.empty() ? of_mesh : part_[node]; }
+  std::uint32_t group(std::uint32_t node, std::uint32_t of_mesh) const {
+    return group_of_.empty() ? of_mesh : group_of_[node];
+  }
   std::uint32_t group_at(std::uint32_t node, std::uint32_t k) const { return group(node, group_of_mesh(k)); }
 
   /// Adds G_ij V_ij of a pair.
   void add_exchange(std::uint32_t g, std::uint32_t h, double exchange) {
     exchange_[g < h ? at(g, h) : at(h, g)] += static_cast<float>(exchange);
+  }
+  /// The same, of nodes of which some may be blocks; of_mesh: group_of_mesh() of theirs.
+  void add_exchange(const Surfaces& surfaces, std::uint32_t i, std::uint32_t of_mesh_i, std::uint32_t j,
+                    std::uint32_t of_mesh_j, double exchange) {
+    if (group_of_.empty() || (!surfaces.is_block(i) && !surfaces.is_block(j))) {
+      add_exchange(group(i, of_mesh_i), group(j, of_mesh_j), exchange);
+    } else {
+      add_exchange_of_blocks(surfaces, i, j, exchange);
+    }
   }
   void add_row(std::uint32_t g, double area_over_scale) { weight_[g] += area_over_scale; }
 
@@ -73,13 +88,17 @@ class Coarse {
   /// to = (diag(a / rho) - T) from, over groups that reflect.
   void apply(std::span<const double> reflectance, std::span<const double> from, std::span<double> to) const;
   void cut_meshes(const Surfaces& surfaces, std::uint32_t edge);
+  void add_exchange_of_blocks(const Surfaces& surfaces, std::uint32_t i, std::uint32_t j, double exchange);
+  /// The part of a node's area that lies in each group.
+  void share_out(const Surfaces& surfaces, std::uint32_t node, double (&share)[kMostGroups]) const;
 
   std::uint32_t groups_ = 0, meshes_ = 0, channels_ = 1;
   std::span<float> exchange_;   // the diagonal holds half: pairs i < j only
   std::span<double> weight_;    // a_g
   std::span<double> change_;    // [g * channels + c]
   std::span<double> residual_, direction_, image_;
-  std::span<std::uint8_t> part_;  // group of a patch by its position; empty: groups are meshes, or share some
+  std::span<std::uint8_t> group_of_;  // a patch, by its position; empty: groups are meshes, or share some
+  bool by_place_ = false;             // groups are cells of space
 };
 
 }  // namespace shodo

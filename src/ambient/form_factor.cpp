@@ -75,7 +75,8 @@ PairExchange near_pair(const Surfaces& surfaces, const RowSide& i, std::uint32_t
                                      axis_rectangle(other, surfaces.shape(j), surfaces.flat));
   if (closed >= 0) return {closed < least ? closed : least, kClosedError * closed, crossing};
   const bool first = looks_at_first(*i.patch, other, over_j, over_i);
-  const NearFactor factor = near_exchange(surfaces, i.position, j, first, tolerance * most, crossing, tolerance >= kRough);
+  const NearFactor factor =
+      near_exchange(surfaces, i.position, j, first, tolerance * most, crossing, tolerance >= kRough);
   return {factor.exchange < least ? factor.exchange : least, factor.error, crossing};
 }
 

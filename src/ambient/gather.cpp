@@ -30,7 +30,8 @@ class Gather {
   [[gnu::noinline]] void patch(std::uint32_t node, std::uint32_t place);
 
  private:
-  [[gnu::noinline]] bool place_point(std::uint32_t mesh_index, std::uint32_t cell, std::uint32_t local, bool thin, GatherPoint& point);
+  [[gnu::noinline]] bool place_point(std::uint32_t mesh_index, std::uint32_t cell, std::uint32_t local, bool thin,
+                                     GatherPoint& point);
   [[gnu::noinline]] void finish(std::uint32_t node, std::uint32_t place, std::uint32_t count);
   double scale_of(const GatherPoint& point) const;
 

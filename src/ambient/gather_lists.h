@@ -3,9 +3,9 @@
 // A final gather asks for each patch and each of hundreds of nodes. Lists of facets are narrowed in four steps, each
 // from the one before: from a region of the receiving mesh (a block of a few patches) to all of an object that sends
 // (by the tree of visibility/blockers.h), from one patch to the object, and from it to the blocks that are split and to
-// the node itself (by the lean shaft of ambient/lean_shaft.h). A list that finds no room is found again where it is needed.
-// With flags off the same lists are made, since what is clear decides how finely light is gathered; segments are then
-// tested against all triangles.
+// the node itself (by the lean shaft of ambient/lean_shaft.h). A list that finds no room is found again where it is
+// needed. With flags off the same lists are made, since what is clear decides how finely light is gathered; segments
+// are then tested against all triangles.
 // Bytes: 2 kListedFacets, 4 a facet, 24 + 24 an object; with flags off the tree besides.
 #pragma once
 

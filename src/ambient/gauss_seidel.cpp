@@ -29,12 +29,7 @@ struct SweepResult {
   }
 };
 
-struct Run {
-  const DirectLight& direct;
-  const Intersector& intersector;
-  const Progress& progress;
-  Matrix& matrix;
-  Solver& solver;
+struct Run : SolverRun {
   std::uint32_t channels;
   bool doubles;
 };
@@ -303,8 +298,7 @@ struct Watch {
 /// Conjugate gradients for every channel, to a part of what the bound is to be; then all is ready for a sweep.
 Status accelerate(Run& run, double goal, double largest, Statistics& statistics) {
   for (std::uint32_t c = 0; c < run.channels; ++c) {
-    const SlowRun slow{run.direct, run.intersector, run.progress, run.matrix, run.solver, c};
-    const Status status = solve_slow_light(slow, goal * (1 - run.matrix.reflected[c]) * largest, statistics);
+    const Status status = solve_slow_light(run, c, goal * (1 - run.matrix.reflected[c]) * largest, statistics);
     if (!status.done()) return status;
   }
   send_all(run);
@@ -316,7 +310,7 @@ Status accelerate(Run& run, double goal, double largest, Statistics& statistics)
 
 Status solve_rows(const DirectLight& direct, const Intersector& intersector, const Progress& progress, Matrix& matrix,
                   Solver& solver, Statistics& statistics) {
-  Run run{direct, intersector, progress, matrix, solver, matrix.surfaces.scene->channels, matrix.doubles()};
+  Run run{{direct, intersector, progress, matrix, solver}, matrix.surfaces.scene->channels, matrix.doubles()};
   const double tolerance = matrix.options->tolerance;
   prepare(run);
   Watch watch;

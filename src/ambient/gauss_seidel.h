@@ -49,6 +49,15 @@ struct Solver {
   std::span<double> spare;              // one channel: two a node, for the first pass and ambient/slow_light.h
 };
 
+/// A solution at work.
+struct SolverRun {
+  const DirectLight& direct;
+  const Intersector& intersector;
+  const Progress& progress;
+  Matrix& matrix;
+  Solver& solver;
+};
+
 /// Solves; `solver.gathered` is zero, the rest is filled here. Errors: kInterrupted.
 Status solve_rows(const DirectLight& direct, const Intersector& intersector, const Progress& progress, Matrix& matrix,
                   Solver& solver, Statistics& statistics);

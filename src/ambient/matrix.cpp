@@ -74,7 +74,7 @@ void spread_row(FirstPass& pass, std::uint32_t i, const MeshWalk& at_i, const st
   const Surfaces& surfaces = matrix.surfaces;
   const std::uint32_t channels = surfaces.scene->channels;
   const double sending_i = matrix.sending_root(i);
-  const std::uint32_t mesh_i = matrix.coarse.group_of_mesh(at_i.place()), group_i = matrix.coarse.group(i, mesh_i);
+  const std::uint32_t mesh_i = matrix.coarse.group_of_mesh(at_i.place());
   const LiveEnds ends_i = ends_of(matrix, i);
   MeshWalk at_j = at_i;
   std::uint32_t mesh_j = mesh_i;
@@ -100,7 +100,7 @@ void spread_row(FirstPass& pass, std::uint32_t i, const MeshWalk& at_i, const st
     const LiveEnds ends_j = ends_of(matrix, j);
     // Corrections count exchange that goes both ways only, so that their matrix is symmetric.
     const double both = ends_i.receivers > 0 && ends_j.receivers > 0 ? to_i * sending_i : 0;
-    if (both > 0) matrix.coarse.add_exchange(group_i, matrix.coarse.group(j, mesh_j), both);
+    if (both > 0) matrix.coarse.add_exchange(surfaces, i, mesh_i, j, mesh_j, both);
     pass.statistics.nonzeros += ends_i.receivers * ends_j.senders + ends_j.receivers * ends_i.senders;
     ++pass.statistics.links;
     if (surfaces.is_block(i) || surfaces.is_block(j)) ++pass.statistics.block_links;

@@ -8,8 +8,8 @@
 // F by the kernel between 4 points of i and the images of 4 points of j, each of the 16 counted if the way passes the
 // triangle and neither leg is blocked; panes weaken both legs. That is a row of form factors times the light, without
 // the matrix: the system E = E0 + (F + M) rho E is solved with F as always and M E added to E0 (ambient/rounds.h).
-// Exact: what the ways meet. Approximate: 16 points for an integral, as in the middle tier of form factors, also where a
-// patch and an image are near each other.
+// Exact: what the ways meet. Approximate: 16 points for an integral, as in the middle tier of form factors, also where
+// a patch and an image are near each other.
 #pragma once
 
 #include "ambient/ambient.h"

@@ -2,9 +2,9 @@
 //
 // Exact over the patch that is looked at, horizon included; the average over the other is Gauss quadrature, refined
 // where it has not converged: 2 x 2 against 3 x 3 points (3 against 7 of a triangle), then 4 x 4, then cut in four,
-// to depth 4; for rough tolerances a single point against 2 x 2 before that. A patch that crosses the other's plane is cut there first, so that no rule has to integrate over the
-// crease. Approximate: the remainder that the last two rules differ by, which is returned. About 1 KiB of stack, no
-// memory.
+// to depth 4; for rough tolerances a single point against 2 x 2 before that. A patch that crosses the other's plane is
+// cut there first, so that no rule has to integrate over the crease. Approximate: the remainder that the last two rules
+// differ by, which is returned. About 1 KiB of stack, no memory.
 #pragma once
 
 #include "scene/mesh.h"

@@ -3,8 +3,8 @@
 //
 // Coloured panes. The rows hold one value a pair, but a form factor then differs from channel to channel, so each
 // channel is found by itself, with what panes let through of it.
-// Mirrors. What they send on of a solution (ambient/mirror_share.h) is added to E0, and all is solved again, twice; what a
-// third time would add is the square of the mirrors' share.
+// Mirrors. What they send on of a solution (ambient/mirror_share.h) is added to E0, and all is solved again, twice;
+// what a third time would add is the square of the mirrors' share.
 //
 // The stage goes in steps, each with code of its own, so that a machine with little memory for code can hold one at a
 // time: `next` says which, and what is between them lies here and in the arena.

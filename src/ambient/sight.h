@@ -2,10 +2,10 @@
 //
 // visibility/intersector.h answers for any two groups of points, from the root of its tree. Links are so many, and so
 // short of segments, that this is worth a structure of its own. Everything rough is in 32-bit integers:
-//   - what may meet the hull of two nodes' boxes is found by masks (visibility/facet_masks.h). What can block between them
-//     are those that meet the common box of their boxes and aren't beyond a line of their hull (ambient/lean_shaft.h).
-//     With flags off there are no masks; whether that list would be empty is found facet by facet, and agrees. Most
-//     often it isn't, and what stood between two nodes before tells so.
+//   - what may meet the hull of two nodes' boxes is found by masks (visibility/facet_masks.h). What can block between
+//     them are those that meet the common box of their boxes and aren't beyond a line of their hull
+//     (ambient/lean_shaft.h). With flags off there are no masks; whether that list would be empty is found facet by
+//     facet, and agrees. Most often it isn't, and what stood between two nodes before tells so.
 //   - many links are so dark that one segment or two decide. For them no list is made: a segment is tested with what it
 //     may meet.
 //   - what blocked a segment to the same mesh last, and the last two facets that blocked anything, are tried first: in

@@ -26,12 +26,13 @@ Vectors vectors_of(const Solver& solver, std::size_t nodes) {
 
 /// One channel at work.
 struct Search {
-  const SlowRun& run;
+  const SolverRun& run;
+  std::uint32_t channel;
   const Surfaces& surfaces;
   Vectors at;
   std::uint32_t channels;
 
-  std::size_t value(std::uint32_t i) const { return std::size_t{surfaces.patch_at[i]} * channels + run.channel; }
+  std::size_t value(std::uint32_t i) const { return std::size_t{surfaces.patch_at[i]} * channels + channel; }
   double& ambient(std::uint32_t i) const { return run.solver.ambient_lx[value(i)]; }
   std::uint32_t partner(std::uint32_t i) const { return static_cast<std::uint32_t>(at.partner[i]); }
 };
@@ -53,7 +54,7 @@ void for_unknowns(const Search& search, Visit&& visit) {
   for (std::uint32_t i = 0; i < search.surfaces.size(); ++i) {
     walk.go_to(i);
     if (search.at.partner[i] < 0) continue;
-    const double rho = walk.reflectance(i)[search.run.channel];
+    const double rho = walk.reflectance(i)[search.channel];
     visit(Unknown{i, walk.place(), scale_of(search, i, rho), rho * search.surfaces.root_area[i]});
   }
 }
@@ -67,7 +68,7 @@ void start(const Search& search) {
     search.at.partner[i] = -1;
     walk.go_to(i);
     if (search.surfaces.is_block(i) || !(search.surfaces.root_area[i] > 0) || !sparsity.sends(i)) continue;
-    const double rho = walk.reflectance(i)[search.run.channel], ambient = search.ambient(i);
+    const double rho = walk.reflectance(i)[search.channel], ambient = search.ambient(i);
     const double total = search.run.direct.patch_lx[search.value(i)] + ambient;
     search.at.direction[i] = rho * search.surfaces.root_area[i] * total;
     if (rho > 0 && ambient > 0 && search.run.matrix.factor[i] > 0) search.at.partner[i] = i;
@@ -95,9 +96,9 @@ void settle_pairs(const Search& search) {
       search.at.partner[i] = i;
     } else if (j > i) {
       double room[3];
-      const double rho_j = search.surfaces.reflectance(j, room)[search.run.channel];
+      const double rho_j = search.surfaces.reflectance(j, room)[search.channel];
       const double coupling = 2 * (search.at.partner[i] - j) * scale_of(search, j, rho_j) *
-                              scale_of(search, i, walk.reflectance(i)[search.run.channel]);
+                              scale_of(search, i, walk.reflectance(i)[search.channel]);
       const bool well = 1 - coupling * coupling > kLeastDeterminant;
       search.at.partner[i] = well ? j + coupling / 2 : i;
       search.at.partner[j] = well ? i + coupling / 2 : j;
@@ -153,7 +154,7 @@ void solve_coarse(const Search& search) {
     sums[coarse.group_at(k.node, k.place)] += search.surfaces.root_area[k.node] * (search.at.residual[k.node] / k.t);
   });
   const std::uint32_t groups = coarse.groups();
-  coarse.solve(search.run.solver.group_reflectance.subspan(search.run.channel * groups, groups), 2 * groups,
+  coarse.solve(search.run.solver.group_reflectance.subspan(search.channel * groups, groups), 2 * groups,
                kCoarseReduction, search.run.solver.group_delta);
 }
 
@@ -219,9 +220,9 @@ double step(const Search& search, double length) {
 
 }  // namespace
 
-Status solve_slow_light(const SlowRun& run, double allowed_lx, Statistics& statistics) {
+Status solve_slow_light(const SolverRun& run, std::uint32_t channel, double allowed_lx, Statistics& statistics) {
   const Surfaces& surfaces = run.matrix.surfaces;
-  const Search search{run, surfaces, vectors_of(run.solver, surfaces.size()), surfaces.scene->channels};
+  const Search search{run, channel, surfaces, vectors_of(run.solver, surfaces.size()), surfaces.scene->channels};
   Status interrupted;
   interrupted.code = StatusCode::kInterrupted;
   start(search);

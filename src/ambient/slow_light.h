@@ -22,18 +22,9 @@
 
 namespace shodo {
 
-/// Sums run by ascending node, so every budget gives the same bits.
-struct SlowRun {
-  const DirectLight& direct;
-  const Intersector& intersector;
-  const Progress& progress;
-  Matrix& matrix;
-  Solver& solver;
-  std::uint32_t channel;
-};
-
-/// Changes ambient_lx of one channel until no row asks for more than `allowed_lx` else, or it gets no better. Leaves
-/// fluxes in disorder. A pass counts as a sweep. Errors: kInterrupted.
-Status solve_slow_light(const SlowRun& run, double allowed_lx, Statistics& statistics);
+/// Changes ambient_lx of one channel until no row asks for more than `allowed_lx` else, or it gets no better. Sums run by
+/// ascending node, so every budget gives the same bits. Leaves fluxes in disorder. A pass counts as a sweep. Errors:
+/// kInterrupted.
+Status solve_slow_light(const SolverRun& run, std::uint32_t channel, double allowed_lx, Statistics& statistics);
 
 }  // namespace shodo

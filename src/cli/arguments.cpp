@@ -403,7 +403,8 @@ class Words {
   void check_difference() {
     const Arguments& a = arguments_;
     if (a.scenes.size() < 2) {
-      mistake_ = "difference: expected two files, found " + (a.scenes.empty() ? "none" : quoted(a.scenes[0]) + " alone");
+      const std::string found = a.scenes.empty() ? "none" : quoted(a.scenes[0]) + " alone";
+      mistake_ = "difference: expected two files, found " + found;
     } else if (!a.output.empty() && !has_ending(a.output, ".png") && !has_ending(a.output, ".ppm")) {
       mistake_ = "-o: expected a name that ends in .png or .ppm, found " + quoted(a.output);
     }

@@ -48,7 +48,7 @@ class Tables {
   static bool write(std::size_t table, Run& run, OutputFile& file, FileError& error) {
     if (table == 0) return write_table(run.model(), file, error);
     if (table == 2) return file.write(summary_table(run.model()), error);
-    return file.write(statistics_json(run.model(), run.arguments().scene, run.watch()), error);
+    return file.write(statistics_json(run), error);
   }
 
   OutputFile file_[3];

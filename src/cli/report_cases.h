@@ -27,9 +27,9 @@ struct ReportCase {
 /// `mirrors`: the scenes have some, so that the light which these send on is a case of its own.
 std::vector<ReportCase> report_cases(const Options& base, bool mirrors = false);
 
-/// What all are measured against: three times the patch counts along each edge, form factors to 1e-4 (or as the base, if
-/// that is finer), 64-bit rows, no rules; every sub-patch gathers its ambient light. Light over mirrors as in the base:
-/// with it, which a gather doesn't know, twice the counts, ambient light interpolated, by 64 and 256 segments.
+/// What all are measured against: three times the patch counts along each edge, form factors to 1e-4 (or as the base,
+/// if that is finer), 64-bit rows, no rules; every sub-patch gathers its ambient light. Light over mirrors as in the
+/// base: with it, which a gather doesn't know, twice the counts, ambient light interpolated, by 64 and 256 segments.
 Options reference_options(const Options& base);
 
 std::string_view flags_text(FlagMode flags);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "cli/overlaps.h"
+
 namespace shodo {
 
 namespace {
@@ -55,6 +57,7 @@ int Run::load_in_budget() {
   if (!status.done()) return tell(status);
   const std::uint64_t needed = smallest_memory(*model_, draws_);
   if (needed > arguments_.memory) return refuse_budget(needed);
+  if (!arguments_.statistics.empty()) merged_plates_ = shodo::merged_plates(*model_);
   return tell_interrupt();
 }
 

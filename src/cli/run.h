@@ -33,8 +33,12 @@ class Run {
 
   const Model& model() const { return *model_; }
   Watch& watch() { return watch_; }
+  const Watch& watch() const { return watch_; }
   const Arguments& arguments() const { return arguments_; }
   bool draws() const { return draws_; }
+  /// As of cli/overlaps.h, counted as soon as the scene is loaded: later its triangles may have made room. 0 without
+  /// --stats.
+  std::uint64_t merged_plates() const { return merged_plates_; }
 
   /// Says what went wrong; the exit status.
   int tell(const Status& status);
@@ -58,6 +62,7 @@ class Run {
   std::string_view text_;
   std::optional<Memory> memory_;
   Model* model_ = nullptr;
+  std::uint64_t merged_plates_ = 0;
 };
 
 }  // namespace shodo

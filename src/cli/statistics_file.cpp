@@ -108,10 +108,11 @@ class Json {
 
 }  // namespace
 
-std::string statistics_json(const Model& model, const std::string& scene, const Watch& watch) {
+std::string statistics_json(const Run& run) {
+  const Model& model = run.model();
   const Statistics& s = model.statistics;
   Json json;
-  json.add("scene", std::string_view(scene))
+  json.add("scene", std::string_view(run.arguments().scene))
       .add("objects", s.objects)
       .add("meshes", s.meshes)
       .add("patches", s.patches);
@@ -122,6 +123,7 @@ std::string statistics_json(const Model& model, const std::string& scene, const 
       .add("step", s.lattice_step)
       .add("inserted", s.vertices_inserted)
       .add("moved", s.vertices_moved)
+      .add("merged_plates", run.merged_plates())
       .close();
   json.open("dropped").add("patches", s.patches_dropped).add("polygons", s.polygons_dropped).close();
   if (s.planes > 0) {
@@ -149,7 +151,7 @@ std::string statistics_json(const Model& model, const std::string& scene, const 
   json.open("seconds");
   for (std::uint32_t k = 0; k < kStageCount; ++k) {
     const Stage stage = static_cast<Stage>(k);
-    json.add(stage_name(stage), watch.seconds(stage));
+    json.add(stage_name(stage), run.watch().seconds(stage));
   }
   return json.close().text();
 }

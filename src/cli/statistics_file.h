@@ -8,6 +8,6 @@
 namespace shodo {
 
 /// One object; numbers in their shortest form that reads back the same.
-std::string statistics_json(const Model& model, const std::string& scene, const Watch& watch);
+std::string statistics_json(const Run& run);
 
 }  // namespace shodo

@@ -224,7 +224,8 @@ void FaceLight::look_at_area(const SubPatchView& view, const ReceiverGroup& grou
       continue;
     }
     const auto whole = [](double weight, std::uint32_t) { return weight; };
-    look.arrives[k] += shadow[k] == 0 ? face.factor[k] : face.factor[k] * weights.part(group.point[k], shadow[k], whole);
+    const double factor = face.factor[k];
+    look.arrives[k] += shadow[k] == 0 ? factor : factor * weights.part(group.point[k], shadow[k], whole);
   }
 }
 

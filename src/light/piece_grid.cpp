@@ -50,9 +50,13 @@ PieceGrid::Parameter PieceGrid::parameter(std::uint32_t sample) const {
     const double inside = index.inverted ? 2.0 / 3 : 1.0 / 3;
     at = {cell * (index.u + inside), cell * (index.v + inside)};
   } else {
-    at = {cell * (sample % divisions_ + 0.5), cell * (sample / divisions_ + 0.5)};
+    at = cell_place(sample, {0.5, 0.5});
   }
   return kept_in(at);
+}
+
+PieceGrid::Parameter PieceGrid::cell_place(std::uint32_t sample, Parameter in_cell) const {
+  return {cell_ * (sample % divisions_ + in_cell.s), cell_ * (sample / divisions_ + in_cell.t)};
 }
 
 /// Half as far from the centre if only the middle half is used.
@@ -85,6 +89,10 @@ PieceGrid::Weighted PieceGrid::fine(std::uint32_t k) const {
 Vec3 PieceGrid::point(std::uint32_t sample) const {
   const Parameter at = parameter(sample);
   return point_at(at);
+}
+
+Vec3 PieceGrid::point(std::uint32_t sample, Parameter in_cell) const {
+  return point_at(kept_in(cell_place(sample, in_cell)));
 }
 
 Vec3 PieceGrid::point_at(const Parameter& at) const {

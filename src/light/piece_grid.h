@@ -11,6 +11,11 @@ namespace shodo {
 
 class PieceGrid {
  public:
+  /// A place on the piece, as Piece::point() takes it.
+  struct Parameter {
+    double s, t;
+  };
+
   /// `middle_half`: all samples half as far from the centre (thin patches). The piece must outlive the grid.
   PieceGrid(const Piece& piece, std::uint32_t divisions, bool middle_half = false);
 
@@ -18,6 +23,8 @@ class PieceGrid {
   bool affine() const { return affine_; }
   std::uint32_t count() const { return divisions_ * divisions_; }
   Vec3 point(std::uint32_t sample) const;
+  /// Elsewhere in the sample's cell of a quadrilateral: 0 .. 1 from the cell's corner along s and t.
+  Vec3 point(std::uint32_t sample, Parameter in_cell) const;
   /// The sample's share of the area, up to a factor common to all: the Jacobian of the piece there, 1 if it is
   /// constant.
   double weight(std::uint32_t sample) const;
@@ -27,10 +34,6 @@ class PieceGrid {
   std::uint32_t corner_count() const { return piece_->corners; }
   std::uint32_t corner(std::uint32_t k) const;
 
-  /// A place on the piece, as Piece::point() takes it.
-  struct Parameter {
-    double s, t;
-  };
   /// Point k < 4 of the 2 x 2 Gauss points of a quadrilateral, exact to the third degree; of a triangle the centroid
   /// and three points, exact to the second. Equal weights but for weight_at().
   Parameter gauss(std::uint32_t k) const;
@@ -47,6 +50,7 @@ class PieceGrid {
 
  private:
   Parameter parameter(std::uint32_t sample) const;
+  Parameter cell_place(std::uint32_t sample, Parameter in_cell) const;
   Parameter kept_in(Parameter at) const;
 
   const Piece* piece_;

@@ -47,7 +47,7 @@ class PlaneReceiver {
 bool take_plane_maps(const Scene& scene, Arena& arena, PlaneMaps& maps);
 std::uint64_t plane_map_bytes(const Scene& scene);
 
-/// Takes the maps, which stay, and fills `direct_lx` and `hidden`; counts segments and tests of planes. Errors: kMemory,
+/// Takes the maps, which stay, and fills `direct_lx` and `hidden`; counts segments and tests. Errors: kMemory,
 /// kInterrupted.
 Status light_planes(const Scene& scene, const Geometry& geometry, const Options& options, Intersector& intersector,
                     const Progress& progress, Arena& arena, PlaneMaps& maps, Statistics& statistics);

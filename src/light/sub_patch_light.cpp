@@ -2,6 +2,7 @@
 
 #include "light/piece_grid.h"
 #include "light/point_source.h"
+#include "light/sample_shift.h"
 #include "visibility/hidden.h"
 
 namespace shodo {
@@ -88,6 +89,7 @@ class SubPatch {
   [[gnu::noinline]] void add_faces(std::uint32_t l);
   void add_uniform(std::uint32_t l, const Received* received, const double* weight, std::uint32_t count);
   [[gnu::noinline]] void sample_finely(std::uint32_t l, const Received* probed, bool near, double mean);
+  Sample fine_sample(std::uint32_t k) const;
   double centre_sees(std::uint32_t l, double shared);
   [[gnu::noinline]] Received near_mean(std::uint32_t l) const;
   [[gnu::noinline]] void look_finely(std::uint32_t l, const Received& mean, double shared);
@@ -109,6 +111,8 @@ class SubPatch {
   SubPatchView view_;
   Probes probes_;        // count 0: not placed yet
   ReceiverGroup gauss_, centre_;  // likewise
+  SampleShift shift_;
+  bool shifted_ = false;  // the fine samples have looked at the sun, which they do from other places in their cells
   Fine fine_;
   SubPatchLight sum_;
   bool reached_ = false;  // some light was found the same all over
@@ -299,16 +303,27 @@ void SubPatch::add_to_fine(std::uint32_t l, std::uint32_t k, const Received& rec
   fine_.used = true;
 }
 
+/// A place of sample k to start segments from.
+Sample SubPatch::fine_sample(std::uint32_t k) const {
+  return at(shifted_ ? grid_.point(k, shift_.in_cell(k)) : grid_.point(k));
+}
+
 /// Asks for all samples; those next to the corners have answered already. Near a point light the values at the samples
-/// only share out the mean.
+/// only share out the mean. The sun is looked at from elsewhere in their cells (light/sample_shift.h).
 void SubPatch::sample_finely(std::uint32_t l, const Received* probed, bool near, double mean) {
+  const bool elsewhere = sources_.light(l).kind == LightKind::kSun && grid_.corner_count() == 4;
+  if (elsewhere && !shifted_) {
+    shift_ = SampleShift(sources_.geometry().lattice, probes_.sample[0].lattice, piece_);
+    shifted_ = true;
+  }
   Received received[kGridSamples];
   double weight = 0, lux = 0;
   for (std::uint32_t k = 0; k < kGridSamples; ++k) {
-    std::uint32_t probe = 1;
+    std::uint32_t probe = elsewhere ? probes_.count : 1;
     while (probe < probes_.count && probes_.grid_index[probe] != k) ++probe;
-    received[k] =
-        probe < probes_.count ? probed[probe] : sources_.receive(l, receiver_, at(grid_.point(k)), near);
+    received[k] = probe < probes_.count ? probed[probe]
+                  : elsewhere           ? sources_.receive(l, receiver_, fine_sample(k), near)
+                                        : sources_.receive(l, receiver_, at(grid_.point(k)), near);
     weight += grid_.weight(k);
     lux += grid_.weight(k) * received[k].lux;
   }
@@ -364,7 +379,7 @@ std::uint32_t SubPatch::hidden_of(std::uint32_t samples) const {
   for (std::uint32_t k = 0; k < kGridSamples; ++k) {
     if ((samples >> k & 1) == 0) continue;
     index[count] = k;
-    lattice[count++] = at(grid_.point(k)).lattice;
+    lattice[count++] = fine_sample(k).lattice;
   }
   const std::uint32_t found = hidden_samples(sources_.intersector(), {lattice, count}, receiver_.normal, false);
   std::uint32_t hidden = 0;

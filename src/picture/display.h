@@ -2,9 +2,9 @@
 //
 // A channel's luminance L in cd/m2 is shown as v = (L - MIN) / (MAX - MIN). Steps are v in 13 bits, 8192 = white;
 // texels go up to 65535 (8 times white) and down to 0, so that interpolation sees what lies beyond white, not below
-// black. With `roll` (deviation D17) what is brighter than half of the range is rolled off before it becomes steps: v is shown as
-// 1 - 1 / (4 v) above 1/2, a hyperbola (as the one of Reinhard and others 2002, eq. 3) that goes on from v = 1/2 with
-// the same slope and reaches white at infinity only: MAX is 3/4, lamps keep their shape. Samples are clamped
+// black. With `roll` (deviation D17) what is brighter than half of the range is rolled off before it becomes steps: v
+// is shown as 1 - 1 / (4 v) above 1/2, a hyperbola (as the one of Reinhard and others 2002, eq. 3) that goes on from v
+// = 1/2 with the same slope and reaches white at infinity only: MAX is 3/4, lamps keep their shape. Samples are clamped
 // at white, averaged over the pixel in steps, and then made sRGB (IEC 61966-2-1).
 //
 // Approximate: a step is 1/8192, at most 0.4 of an 8-bit level (near black). Bytes: 2 a sub-patch and channel; 8193

@@ -1,9 +1,9 @@
 // The drawn triangles in a tree of boxes, for rays (paper 2.4; only for scenes with mirrors, glass or highlights).
 //
-// Median cuts (visibility/median_boxes.h) along the axis that leaves both halves' boxes the least surface (MacDonald and
-// Booth 1990). A ray's nearest hit is sought near boxes first; a box that begins beyond the nearest hit so far is left
-// out. Boxes are tested with 2^32 / |d| rounded down, and as much to spare as that can be off, so none that is met is
-// left out.
+// Median cuts (visibility/median_boxes.h) along the axis that leaves both halves' boxes the least surface (MacDonald
+// and Booth 1990). A ray's nearest hit is sought near boxes first; a box that begins beyond the nearest hit so far is
+// left out. Boxes are tested with 2^32 / |d| rounded down, and as much to spare as that can be off, so none that is met
+// is left out.
 // Exact: the answers. Bytes: 4 a drawn triangle, 24 a node (about one for each two triangles).
 #pragma once
 
@@ -60,50 +60,25 @@ class RayTree {
 
 template <class Hull, class Visit>
 bool RayTree::visit_in(Hull& hull, Visit visit) const {
-  std::uint32_t stack[33];
-  std::uint32_t depth = 0;
-  if (!nodes_.empty()) stack[depth++] = 0;
-  while (depth > 0) {
-    const std::uint32_t node = stack[--depth];
-    if (hull.misses(nodes_[node])) continue;
-    if (2 * node + 1 < nodes_.size()) {
-      stack[depth++] = 2 * node + 2;
-      stack[depth++] = 2 * node + 1;
-      continue;
-    }
-    const ItemRange range = median_range(node, order_.size());
-    for (std::uint32_t k = range.first; k < range.end; ++k) {
-      if (!hull.misses(drawn_[order_[k]]) && !visit(order_[k])) return false;
-    }
-  }
-  return true;
+  return walk_medians(
+      nodes_.size(), order_.size(), [&](std::uint32_t node) { return !hull.misses(nodes_[node]); },
+      [&](std::uint32_t k) { return hull.misses(drawn_[order_[k]]) || visit(order_[k]); });
 }
 
 template <class Visit>
 void RayTree::visit_blockers(const Ray& ray, bool ends, Visit visit) const {
-  std::uint32_t stack[33];
-  std::uint32_t depth = 0;
   const Slabs slabs = slabs_of(ray);
   const std::int64_t limit = ends ? (std::int64_t{1} << 32) + 1 : INT64_MAX;
-  if (!nodes_.empty()) stack[depth++] = 0;
-  while (depth > 0) {
-    const std::uint32_t node = stack[--depth];
-    std::int64_t enters;
-    if (!meets(nodes_[node], slabs, limit, enters)) continue;
-    if (2 * node + 1 < nodes_.size()) {
-      stack[depth++] = 2 * node + 2;
-      stack[depth++] = 2 * node + 1;
-      continue;
-    }
-    const ItemRange range = median_range(node, order_.size());
-    for (std::uint32_t k = range.first; k < range.end; ++k) {
-      RayHit hit;
-      const std::uint32_t t = order_[k];
-      if (!meet(drawn_[t], t, ray, hit) || (ends && hit.distance >= hit.speed)) continue;
-      if (invisible(drawn_[t], hit.front)) continue;
-      if (!visit(hit)) return;
-    }
-  }
+  const auto enters = [&](std::uint32_t node) {
+    std::int64_t at;
+    return meets(nodes_[node], slabs, limit, at);
+  };
+  walk_medians(nodes_.size(), order_.size(), enters, [&](std::uint32_t k) {
+    RayHit hit;
+    const std::uint32_t t = order_[k];
+    if (!meet(drawn_[t], t, ray, hit) || (ends && hit.distance >= hit.speed)) return true;
+    return invisible(drawn_[t], hit.front) || visit(hit);
+  });
 }
 
 }  // namespace shodo

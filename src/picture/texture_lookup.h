@@ -17,8 +17,8 @@ class TextureLookup {
   TextureLookup(const Scene& scene, const Texture& texture, bool repeats);
   TextureLookup() = default;
 
-  /// Linear, of 65535, by channel of the texture; s and t are 1/2^32 of a repeat, t downwards. `step`: texels of level 0
-  /// a sample, 16.16.
+  /// Linear, of 65535, by channel of the texture; s and t are 1/2^32 of a repeat, t downwards. `step`: texels of level
+  /// 0 a sample, 16.16.
   void look_up(std::uint32_t s, std::uint32_t t, std::uint32_t step, std::uint32_t (&value)[3]) const;
   std::uint32_t channels() const { return channels_; }
 
@@ -63,7 +63,8 @@ inline void TextureLookup::bilinear(const TextureLevel& level, std::uint32_t s, 
   }
 }
 
-inline void TextureLookup::look_up(std::uint32_t s, std::uint32_t t, std::uint32_t step, std::uint32_t (&value)[3]) const {
+inline void TextureLookup::look_up(std::uint32_t s, std::uint32_t t, std::uint32_t step,
+                                   std::uint32_t (&value)[3]) const {
   std::uint32_t level = 0, weight = 0;
   if (step > 65536) {
     level = static_cast<std::uint32_t>(std::bit_width(step)) - 17;

@@ -10,8 +10,8 @@ namespace shodo {
 
 /// Puts the middle of the scene's box at the origin. The box holds the vertices, the corners of area lights and planes,
 /// point lights and eyes; faces that were dropped are not in it. A coordinate a becomes ((a - min) + (a - max)) / 2:
-/// moving or mirroring a scene changes no bit, as long as its coordinates can be moved exactly; the error is an ulp of the
-/// box.
+/// moving or mirroring a scene changes no bit, as long as its coordinates can be moved exactly; the error is an ulp of
+/// the box.
 void centre_scene(Scene& scene);
 
 /// Positions of area and polyhedral lights: the area-weighted mean of their surface, faces ascending, each cut in two.

@@ -21,7 +21,8 @@ struct Piece {
   Vec3 corner[4];             // in front's counter-clockwise order; corner[3] == corner[2] for a triangle
   features::FixedUnless<features::kMeshes, std::uint32_t, 4> corners = 4;  // 3 or 4
   features::FixedUnless<features::kMeshes, bool, false> concave = false;   // cut from corner 1 to corner 3
-  features::FixedUnless<features::kMeshes, bool, false> cut = false;       // not convex: cut from corner 1 to corner 3 if concave, else from corner 0 to corner 2
+  /// Not convex: cut from corner 1 to corner 3 if concave, else from corner 0 to corner 2.
+  features::FixedUnless<features::kMeshes, bool, false> cut = false;
 
   /// Point at (s, t) of the unit square: corner 0 at (0,0), 1 at (1,0), 2 at (1,1), 3 at (0,1) for a quadrilateral;
   /// for a triangle corner 0 + s (corner 1 - corner 0) + t (corner 2 - corner 0), s + t <= 1.

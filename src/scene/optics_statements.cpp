@@ -46,7 +46,8 @@ bool read_picture(SceneReading& reading) {
     if (!words.at_word() || words.peek().text != kParts[k]) return words.expected(kParts[k]);
     words.take();
     const bool read = k == 0   ? read_direction(words, {"towards"}, background.towards)
-                      : k == 1 ? read_number(words, {"width of the picture, degrees"}, {1, 170}, background.width_degrees)
+                      : k == 1 ? read_number(words, {"width of the picture, degrees"}, {1, 170},
+                                             background.width_degrees)
                                : read_number(words, {"luminance of the picture's white, cd/m2"}, kNotNegative,
                                              background.luminance);
     if (!read) return false;

@@ -8,8 +8,8 @@
 // Approximate: the area of a quadrilateral that is no parallelogram isn't even over its map; levels beyond the first
 // are rounded to 8 bits.
 // A repeated pattern that differs by at most an eighth from patch to patch counts as even: its mesh has `diffuse`.
-// Bytes: 24 another textured mesh and 4 a channel and patch of it, and the textures' texels while it goes on; none in scenes
-// without textures.
+// Bytes: 24 another textured mesh and 4 a channel and patch of it, and the textures' texels while it goes on; none in
+// scenes without textures.
 #pragma once
 
 #include <cstdint>

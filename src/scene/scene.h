@@ -75,7 +75,8 @@ enum class MeshKind : std::uint8_t { kQuad, kTriangle, kGrid };
 /// divides each edge by `nu` (== nv) and has nu^2 patches. Sub-patches: su x sv a patch, a triangle su^2.
 struct Mesh {
   features::FixedUnless<features::kMeshes, MeshKind, MeshKind::kQuad> kind = MeshKind::kQuad;
-  features::FixedUnless<features::kMeshes, bool, false> concave = false;  // quad only: cut from corner 1 to corner 3 (else the fixed diagonal 0 to 2)
+  /// Quad only: cut from corner 1 to corner 3 (else the fixed diagonal 0 to 2).
+  features::FixedUnless<features::kMeshes, bool, false> concave = false;
   features::FixedUnless<features::kMeshes, bool, false> cut = false;      // quad: not convex, on the diagonal that
                                   // `concave` says; grid: some cell is so
   bool wraps_u = false;           // grid only: the last column of vertices is the first

@@ -37,7 +37,8 @@ bool SceneStore::take_blocks(Arena& arena) {
 
 bool SceneStore::begin_storing(Arena& arena, Status& status) {
   const Counts& c = counts_;
-  if (c.materials + c.objects + c.meshes + c.vertices + c.lights + c.cameras + c.planes + c.glass + c.textures >= kNone) {
+  const auto shapes = c.meshes + c.vertices + c.planes + c.glass, named = c.materials + c.objects + c.textures;
+  if (shapes + named + c.lights + c.cameras >= kNone) {
     status.code = StatusCode::kScene;
     MessageText(status.message, sizeof status.message).add("expected fewer than 2^32 vertices, meshes and lights");
     return false;

@@ -64,22 +64,12 @@ class Blockers {
   /// Calls visit(facet number) for all in the shaft, in an order that the geometry fixes.
   template <class Visit>
   void visit(Shaft shaft, Visit visit) const {
-    std::uint32_t stack[32];  // one waiting node a level
-    std::uint32_t depth = 0;
-    if (built()) stack[depth++] = 0;
-    while (depth > 0) {
-      const std::uint32_t node = stack[--depth];
-      if (shaft.misses(nodes_[node])) continue;
-      if (2 * node + 1 < nodes_.size()) {
-        stack[depth++] = 2 * node + 2;
-        stack[depth++] = 2 * node + 1;
-        continue;
-      }
-      const ItemRange range = median_range(node, facets_.size());
-      for (std::uint32_t k = range.first; k < range.end; ++k) {
-        if (!shaft.misses(facets_[k].box)) visit(k);
-      }
-    }
+    walk_medians(
+        nodes_.size(), facets_.size(), [&](std::uint32_t node) { return !shaft.misses(nodes_[node]); },
+        [&](std::uint32_t k) {
+          if (!shaft.misses(facets_[k].box)) visit(k);
+          return true;
+        });
   }
 
  private:

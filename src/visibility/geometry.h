@@ -72,8 +72,8 @@ struct Geometry {
   std::span<std::uint32_t> first_cell;          // per mesh
   std::span<PolygonTriangles> light_triangles;  // per light; none for all but area lights that block
   std::span<Pane> panes;  // ascending triangles; mostly none
-  // Meshes ascending, then area lights (open ones too), then glass; a spare block of the arena, so that what comes before the
-  // picture may have the memory: place_drawn() then.
+  // Meshes ascending, then area lights (open ones too), then glass; a spare block of the arena, so that what comes
+  // before the picture may have the memory: place_drawn() then.
   std::span<DrawnTriangle> drawn;
   std::uint32_t drawn_count = 0;
   std::span<LatticePoint> light_points;  // per light: where a point light stands, odd, in front of what it lies on

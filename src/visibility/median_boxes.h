@@ -54,4 +54,27 @@ void fill_median_boxes(std::span<LatticeBox> nodes, std::uint64_t items, Sort so
   }
 }
 
+/// Goes down a tree of `nodes` nodes over `items` items where enters(node) says so; visit(item) is called for those in its
+/// leaves, ascending in each, until it returns false; whether it never did.
+template <class Enters, class Visit>
+[[gnu::always_inline]] inline bool walk_medians(std::size_t nodes, std::size_t items, Enters enters, Visit visit) {
+  std::uint32_t stack[33];  // one waiting node a level, and the last
+  std::uint32_t depth = 0;
+  if (nodes > 0) stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t node = stack[--depth];
+    if (!enters(node)) continue;
+    if (2 * node + 1 < nodes) {
+      stack[depth++] = 2 * node + 2;
+      stack[depth++] = 2 * node + 1;
+      continue;
+    }
+    const ItemRange range = median_range(node, items);
+    for (std::uint32_t k = range.first; k < range.end; ++k) {
+      if (!visit(k)) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace shodo

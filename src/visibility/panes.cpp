@@ -56,7 +56,8 @@ double Panes::product(const LatticeBox& around, Passes passes_one) const {
 
 double Panes::pass(const LatticePoint& p, const LatticePoint& q) const {
   const LatticeVector d = q - p;
-  return product(box_between(p, q), [&](const Triangle& triangle) { return !misses(triangle, p, q) && passes(triangle, p, d); });
+  return product(box_between(p, q),
+                 [&](const Triangle& triangle) { return !misses(triangle, p, q) && passes(triangle, p, d); });
 }
 
 double Panes::pass_along(const LatticePoint& p, const LatticeVector& d) const {

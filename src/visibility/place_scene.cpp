@@ -1,8 +1,8 @@
 // Geometry of a scene: the lattice, and the triangles that block and that are drawn (design: exact visibility).
 //
 // What to mend is found in scratch, counted, and found again once the results have their exact size: twice the time,
-// and not a byte of slack. Bytes left: 72 a blocking triangle, 56 a pane, 8 a polygon, 4 a mesh, 20 a light; and 68 a drawn one,
-// in a spare block. If the light takes that, drawn triangles are found once more before the picture.
+// and not a byte of slack. Bytes left: 72 a blocking triangle, 56 a pane, 8 a polygon, 4 a mesh, 20 a light; and 68 a
+// drawn one, in a spare block. If the light takes that, drawn triangles are found once more before the picture.
 #include "visibility/drawn.h"
 #include "visibility/geometry.h"
 #include "visibility/mending.h"
@@ -71,7 +71,8 @@ Pane pane_of(const Scene& scene, const Geometry& geometry, const PolygonTriangle
   return pane;
 }
 
-/// Glass is drawn after everything else, where it is: it is not mended and mends nothing, so that light doesn't know it.
+/// Glass is drawn after everything else, where it is: it is not mended and mends nothing, so that light doesn't know
+/// it.
 void cut_glass(const Scene& scene, const Lattice& lattice, Output& output) {
   output.mesh = kNone;
   for (std::uint32_t g = 0; g < scene.glass.size(); ++g) {

@@ -1,5 +1,5 @@
-// A line of a shaft's hull, in the plane of two axes: what lies beyond it no segment of the shaft meets. In 32 bits, with
-// the lattice 2^6 times coarser, so that no product overflows (visibility/shaft.h, ambient/lean_shaft.h).
+// A line of a shaft's hull, in the plane of two axes: what lies beyond it no segment of the shaft meets. In 32 bits,
+// with the lattice 2^6 times coarser, so that no product overflows (visibility/shaft.h, ambient/lean_shaft.h).
 #pragma once
 
 #include <cstddef>

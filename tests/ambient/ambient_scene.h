@@ -98,8 +98,8 @@ struct AmbientScene {
   std::vector<float> visible, lights;
 };
 
-/// Solves a scene with room for all rows, then in the smallest memory and in so many bytes `more`: rows that are computed
-/// again give the bits of rows kept. `also(tight, arena, more)` checks each solution further.
+/// Solves a scene with room for all rows, then in the smallest memory and in so many bytes `more`: rows that are
+/// computed again give the bits of rows kept. `also(tight, arena, more)` checks each solution further.
 template <class Light, class Also>
 void expect_same_bits_in_any_memory(const std::string& text, const Options& options, Light e0,
                                     std::initializer_list<std::uint64_t> mores, Also also) {

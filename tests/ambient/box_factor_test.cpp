@@ -13,8 +13,8 @@ TEST(BoxFactor, IsTheContourIntegral) {
                                 "1 0 0 1 0 1 1 1 1 1 1 0",     "1.5 0.2 -0.5 1.5 0.2 1 1.5 0.9 1 1.5 0.9 -0.5",
                                 "-1 2 0.1 2 2 0.1 2 2 3 -1 2 3"};
   for (const char* const other : others) {
-    AmbientScene scene(grey(0.5) + "object a\nquad white 0 0 0 1 0 0 1 1 0 0 1 0 patches 1 1 sub 1 1\nobject b\nquad white " +
-                       other + " patches 1 1 sub 1 1\n");
+    AmbientScene scene(grey(0.5) + "object a\nquad white 0 0 0 1 0 0 1 1 0 0 1 0 patches 1 1 sub 1 1\n" +
+                       "object b\nquad white " + other + " patches 1 1 sub 1 1\n");
     const double flat = 1e-9;
     NearPatch patch[2];
     AxisRectangle box[2];

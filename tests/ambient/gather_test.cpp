@@ -101,7 +101,8 @@ TEST(Gather, ListsThatAreTooLongChangeNoBit) {
   constexpr int kSide = 48;
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {
-      const double at = 0.2 + 1.6 * x / kSide, beside = 0.2 + 1.6 * y / kSide, high = 0.9 + 0.004 * ((7 * x + 3 * y) % 17);
+      const double at = 0.2 + 1.6 * x / kSide, beside = 0.2 + 1.6 * y / kSide;
+      const double high = 0.9 + 0.004 * ((7 * x + 3 * y) % 17);
       char line[200];
       std::snprintf(line, sizeof line, "quad white %g %g %g %g %g %g %g %g %g %g %g %g patches 1 1 sub 1 1\n", at,
                     beside, high, at + 0.02, beside, high, at + 0.02, beside + 0.02, high, at, beside + 0.02, high);

@@ -13,8 +13,8 @@ const std::string kHead =
     "object floor\nquad white 0 0 0  1 0 0  1 1 0  0 1 0 patches 1 1 sub 1 1\n";
 
 TEST(VisibleFraction, OfAPatchOfWhichNoSampleIsInFrontIsNothing) {
-  // A wall that stands a hundredth above the floor and reaches a metre below: the contour integral has an exchange, but no
-  // sample of the wall is over the floor, so nothing is known to be seen. With a pane, and whatever the segments.
+  // A wall that stands a hundredth above the floor and reaches a metre below: the contour integral has an exchange, but
+  // no sample of the wall is over the floor, so nothing is known to be seen. With a pane, and whatever the segments.
   const std::string wall = "object wall\nquad white 0 0 -1  0 1 -1  0 1 0.01  0 0 0.01 patches 1 1 sub 1 1\n";
   const std::string pane = "object pane\nquad glass 0.2 0 -1  0.2 1 -1  0.2 1 1  0.2 0 1 patches 1 1 sub 1 1\n";
   for (const std::string& more : {std::string(), pane}) {

@@ -277,6 +277,7 @@ TEST(StatisticsFile, HasTheKeysOfTheContractInItsOrder) {
                                          "lattice.step",
                                          "lattice.inserted",
                                          "lattice.moved",
+                                         "lattice.merged_plates",
                                          "dropped",
                                          "dropped.patches",
                                          "dropped.polygons",
@@ -351,6 +352,37 @@ TEST(StatisticsFile, HasTheKeysOfTheContractInItsOrder) {
   }
 }
 
+TEST(StatisticsFile, CountsPlatesNearerThanTheLatticeTells) {
+  // A step of this scene is 2e-6. Plates that face each other 1e-6 apart and those 1e-5 apart; the two sides of a wall
+  // 1e-6 thick don't face each other. In the least budget the triangles make room before the file is written.
+  const TestFolder folder;
+  folder.write("plates.scn", "shodo 1\nmaterial white diffuse 0.5\nobject all\n"
+                             "quad white 0 0 0  1 0 0  1 1 0  0 1 0\n"
+                             "quad white 0 0 1e-6  0 1 1e-6  1 1 1e-6  1 0 1e-6\n"
+                             "quad white 0 0 0.5  1 0 0.5  1 1 0.5  0 1 0.5\n"
+                             "quad white 0 0 0.50001  0 1 0.50001  1 1 0.50001  1 0 0.50001\n"
+                             "quad white 0 0 0.8  0 1 0.8  1 1 0.8  1 0 0.8\n"
+                             "quad white 0 0 0.800001  1 0 0.800001  1 1 0.800001  0 1 0.800001\n"
+                             "camera c eye 0.5 0.5 0.7 look 0.5 0.6 0.2 up 0 1 0 fov 60\n");
+  const Outcome check = run({"check", "plates.scn"}, folder.path());
+  EXPECT_NE(check.out.find("warning:   1 pair of polygons that face each other, nearer than two lattice steps"),
+            std::string::npos)
+      << check.out;
+  const std::size_t at = check.out.find("memory:    ");
+  ASSERT_NE(at, std::string::npos);
+  std::string least;
+  for (std::size_t k = at + 11; check.out[k] != ' '; ++k) {
+    if (check.out[k] != ',') least += check.out[k];
+  }
+  for (const std::string& memory : {std::string("8M"), least}) {
+    const Outcome outcome = run({"render", "plates.scn", "-o", "x.ppm", "--size", "32x24", "--stats", "-", "--memory",
+                                 memory},
+                                folder.path());
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(Json(outcome.out).at("lattice.merged_plates"), "1") << memory;
+  }
+}
+
 TEST(StatisticsFile, EscapesTheScenesName) {
   const TestFolder folder;
   const std::string name = "a \"quoted\"\\\n\tname.scn";
@@ -382,7 +414,8 @@ TEST(Check, WarnsOfPlatesThatFaceEachOtherNearerThanTheLatticeTells) {
   // A step is 3.8e-6 here.
   const auto warned = [&](const std::string& second) {
     folder.write("x.scn", "shodo 1\nunit m\ncamera c eye 0.5 -2 0.5 look 0.5 0 0 up 0 0 1 fov 60\n"
-                          "material grey diffuse 0.5\nobject a\nquad grey 0 0 0  1 0 0  1 1 0  0 1 0 patches 2 2 sub 1 1\n"
+                          "material grey diffuse 0.5\n"
+                          "object a\nquad grey 0 0 0  1 0 0  1 1 0  0 1 0 patches 2 2 sub 1 1\n"
                           "object b\n" + second + " patches 2 2 sub 1 1\n"
                           "light l point at 0.5 0.5 -1 intensity 100\n");
     const Outcome check = run({"check", "x.scn"}, folder.path());

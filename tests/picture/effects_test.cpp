@@ -34,7 +34,8 @@ Options small_picture(bool effects = true) {
 
 /// A model with its memory, and its picture.
 struct DrawnRun {
-  DrawnRun(const std::string& text, TestFiles named, Options options = small_picture(), std::size_t bytes = std::size_t{1} << 24)
+  DrawnRun(const std::string& text, TestFiles named, Options options = small_picture(),
+           std::size_t bytes = std::size_t{1} << 24)
       : files(std::move(named)), memory(bytes / 8 + 1) {
     status = load("top.scn", text, reader_of(files), options, memory.data(), bytes, model);
     EXPECT_TRUE(status.done()) << to_text(status);
@@ -71,7 +72,8 @@ std::string room(bool plain, bool textured = true) {
               "luminance 50\n") +
          "material wall diffuse 0.5 0.45 0.4" + (textured ? only(" texture a.ppm size 0.7 0.9") : std::string()) +
          "\nmaterial shiny diffuse 0.3 0.1 0.1" + only(" reflect 0.2 highlight 0.2 20") + "\n" +
-         only("material clear diffuse 0 reflect 0.1 transmit 0.8\nglass clear 0.5 0.2 2  2.5 0.2 2  2.5 1.8 2  0.5 1.8 2\n") +
+         only("material clear diffuse 0 reflect 0.1 transmit 0.8\n"
+              "glass clear 0.5 0.2 2  2.5 0.2 2  2.5 1.8 2  0.5 1.8 2\n") +
          "object o\nquad wall 0 0 0  0 0 3  3 0 3  3 0 0\nquad shiny 0 0 0  3 0 0  3 1.5 0  0 1.5 0\n"
          "quad wall 0 0 0  0 2 0  0 2 3  0 0 3\n"
          "light lamp point at 1.5 1.9 1.5 intensity 90 colour 1 0.9 0.8\n";
@@ -117,9 +119,11 @@ TEST(Glass, IsRefusedUnlessItReflectsOrTransmits) {
   EXPECT_NE(std::string(scene.status.message).find("a material that reflects or transmits"), std::string::npos);
 }
 
-// A sheet that transmits 0.5 halves the luminance of what is behind; seen from behind as well, and where it ends it ends.
+// A sheet that transmits 0.5 halves the luminance of what is behind; seen from behind as well, and where it ends it
+// ends.
 TEST(Glass, WeakensWhatIsBehindItFromBothSides) {
-  for (const char* const glass : {"glass half 0 0 1  2 0 1  2 4 1  0 4 1\n", "glass half 0 0 1  0 4 1  2 4 1  2 0 1\n"}) {
+  for (const char* const glass :
+       {"glass half 0 0 1  2 0 1  2 4 1  0 4 1\n", "glass half 0 0 1  0 4 1  2 4 1  2 0 1\n"}) {
     DrawnRun run(std::string("shodo 1\ndisplay 0 100\ncamera c eye 2 2 4 look 2 2 0 up 0 1 0 fov 40\n") +
                 "material m diffuse 0.5\nmaterial half diffuse 0 transmit 0.5\nobject o\n"
                 "quad m 0 0 0  4 0 0  4 4 0  0 4 0\nlight s sun towards 0 0 -1 illuminance 314.159\n" + glass,
@@ -158,7 +162,8 @@ TEST(BackgroundPicture, HangsFarAwayUprightAndUnmirrored) {
   std::size_t within = 0;
   for (std::uint32_t y = 0; y < 48; ++y) {
     for (std::uint32_t x = 0; x < 64; ++x) {
-      const Vec3 d = forward + (tan_fov * (2 * (x + 0.5) - 64) / 48) * right - (tan_fov * (2 * (y + 0.5) / 48 - 1)) * up;
+      const double to_right = tan_fov * (2 * (x + 0.5) - 64) / 48, down = tan_fov * (2 * (y + 0.5) / 48 - 1);
+      const Vec3 d = forward + to_right * right - down * up;
       const double s = dot(d, r) / dot(d, a) / half, t = dot(d, u) / dot(d, a) / (half * height / width);
       if (std::abs(s) > 0.999 || std::abs(t) > 0.999) continue;
       ++within;
@@ -180,7 +185,8 @@ TEST(BackgroundPicture, HangsFarAwayUprightAndUnmirrored) {
 }
 
 TEST(BackgroundPicture, IsNotHungAlongItsUp) {
-  const TestScene scene("shodo 1\nbackground zenith 1 horizon 1 ground 1 picture a.ppm towards 0 1 0 width 60 luminance 9\n");
+  const TestScene scene("shodo 1\n"
+                        "background zenith 1 horizon 1 ground 1 picture a.ppm towards 0 1 0 width 60 luminance 9\n");
   EXPECT_EQ(scene.status.line, 2u);
 }
 

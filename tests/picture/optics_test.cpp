@@ -291,7 +291,8 @@ TEST(PictureOptics, OfTwoPolygonsInOnePlaneAMirrorShowsTheSameInAnyOrder) {
   const std::string small_one = "object small\nquad gold 1.5 1 3.5  1.5 2 3.5  2.5 2 3.5  2.5 1 3.5\n";
   const auto drawn = [](const std::string& text) {
     OpticsScene scene(kRoom + text, small(80, 60));
-    for (float& lx : std::span(const_cast<float*>(scene.maps().direct_lx.data()), scene.maps().direct_lx.size())) lx = 300;
+    const auto direct = scene.maps().direct_lx;
+    for (float& lx : std::span(const_cast<float*>(direct.data()), direct.size())) lx = 300;
     return scene.draw();
   };
   EXPECT_EQ(drawn(mirror + wide + small_one), drawn(mirror + small_one + wide));
@@ -301,7 +302,8 @@ TEST(PictureOptics, OfTwoPolygonsInOnePlaneAMirrorShowsTheSameInAnyOrder) {
 TEST(PictureOptics, HighlightsOfAFaceAreThoseOfItsTriangles) {
   // A parallelogram, and a quadrilateral with a corner inwards, against the two triangles that make them.
   const auto drawn = [](const std::string& lamp) {
-    OpticsScene scene(kRoom + kBackWall + "object top\nquad lacquer 0.8 0.6 0.8  0.8 0.6 2.6  3.2 0.6 2.6  3.2 0.6 0.8\n"
+    OpticsScene scene(kRoom + kBackWall +
+                      "object top\nquad lacquer 0.8 0.6 0.8  0.8 0.6 2.6  3.2 0.6 2.6  3.2 0.6 0.8\n"
                       "object lamp\n" + lamp + "light l polyhedron object lamp luminance 2500\n", small(64, 48));
     return scene.draw();
   };

@@ -25,7 +25,8 @@ std::string drawn(SolvedScene& scene) {
 TEST(Attenuation, OfHalfAtAnyDistanceIsHalfTheLightOverMirrorsAndInHighlightsToo) {
   const std::string head =
       "shodo 1\ndisplay 1 250\ncamera eye eye 0.5 0.5 1 look 2 2 0.8 up 0 0 1 fov 80\n"
-      "material white diffuse 0.5\nmaterial mirror diffuse 0.1 reflect 0.8\nmaterial lacquer diffuse 0.4 highlight 0.3 40\n"
+      "material white diffuse 0.5\nmaterial mirror diffuse 0.1 reflect 0.8\n"
+      "material lacquer diffuse 0.4 highlight 0.3 40\n"
       "object room\nquad lacquer 0 0 0  3 0 0  3 3 0  0 3 0 patches 4 4 sub 2 2\n"
       "quad mirror 3 0 0  3 0 2  3 3 2  3 3 0 patches 1 1 sub 1 1\n"
       "quad white 0 3 0  3 3 0  3 3 2  0 3 2 patches 3 3 sub 2 2\n";

@@ -79,7 +79,10 @@ std::vector<std::size_t> calls_worth_stopping_at(const std::vector<Call>& noted)
   std::vector<std::size_t> chosen;
   for (std::size_t begin = 0; begin < noted.size();) {
     std::size_t end = begin;
-    while (end < noted.size() && noted[end].stage == noted[begin].stage && noted[end].total == noted[begin].total) ++end;
+    const auto goes_on = [&] {
+      return noted[end].stage == noted[begin].stage && noted[end].total == noted[begin].total;
+    };
+    while (end < noted.size() && goes_on()) ++end;
     for (const std::size_t at : {begin, begin + 1, (begin + end) / 2, end - 1}) {
       if (at < end && (chosen.empty() || at > chosen.back())) chosen.push_back(at);
     }

@@ -63,8 +63,8 @@ TEST(SceneRefusals, TheVersionStandsFirstAndOnce) {
 
 TEST(SceneRefusals, UnknownStatements) {
   expect_refused(after_start("foo 1 2", 1,
-                             "expected a statement (background, camera, display, grid, glass, include, light, material, obj, "
-                             "object, plane, quad, sub, tri, unit), found 'foo'"));
+                             "expected a statement (background, camera, display, grid, glass, include, light, "
+                             "material, obj, object, plane, quad, sub, tri, unit), found 'foo'"));
   expect_refused(after_start("  Quad", 3, "found 'Quad'"));
   expect_refused(after_start("\t\tquads", 3, "found 'quads'"));
   expect_refused(after_start(std::string(300, 'x'), 1, "found 'xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx...'"));

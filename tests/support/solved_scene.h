@@ -12,7 +12,8 @@
 namespace shodo {
 
 struct SolvedScene {
-  explicit SolvedScene(const std::string& text, const Options& options = {}, std::size_t bytes = std::size_t{64} << 20, const Reader& reader = {})
+  explicit SolvedScene(const std::string& text, const Options& options = {}, std::size_t bytes = std::size_t{64} << 20,
+                       const Reader& reader = {})
       : memory((bytes + 7) / 8) {
     status = load("top.scn", text, reader, options, memory.data(), bytes, model);
     if (status.done()) status = solve(*model, {});

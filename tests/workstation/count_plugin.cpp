@@ -102,8 +102,9 @@ void print_counts(qemu_plugin_id_t, void*) {
     const Counts& s = of_stage[k];
     if (s.instructions == 0) continue;
     char line[160];
-    std::snprintf(line, sizeof line, "count %d %llu %llu %llu %llu\n", k, static_cast<unsigned long long>(s.instructions),
-                  static_cast<unsigned long long>(s.floating), static_cast<unsigned long long>(s.multiplications),
+    std::snprintf(line, sizeof line, "count %d %llu %llu %llu %llu\n", k,
+                  static_cast<unsigned long long>(s.instructions), static_cast<unsigned long long>(s.floating),
+                  static_cast<unsigned long long>(s.multiplications),
                   static_cast<unsigned long long>(s.divisions));
     qemu_plugin_outs(line);
   }
