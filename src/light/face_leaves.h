@@ -1,4 +1,4 @@
-// Where segments to an area light end that is nearer than its own radius: the leaves of a quadtree over it, cells that
+// Where segments to an area light end that is near (light/face_light.cpp): the leaves of a quadtree over it, cells that
 // are small against their distance. A long light is cut into squares first, nearly, each of which is a tree.
 // Approximate: a leaf is tested at its middle. 150 bytes of stack, no memory.
 #pragma once

@@ -2,14 +2,13 @@
 
 #include "base/bits.h"
 #include "light/face_leaves.h"
+#include "light/face_work.h"
 #include "light/polygon_factor.h"
 
 namespace shodo {
 
 namespace {
 
-/// So many faces of a polyhedron are looked at together.
-constexpr std::uint32_t kFacesAtOnce = 16;
 /// Of a sub-patch: nearer than that to a face its light is not of the third degree over it, within 1/500.
 constexpr double kNearRadii = 4;
 /// The middle tier's error over q^2.
@@ -17,13 +16,17 @@ constexpr double kMiddleError = 0.45;
 /// That of the scaled tier over (r_p r_e / d^2)^2.
 constexpr double kScaledError = 4;
 
-/// cos cos / r^2 from a sample to a point of a face; 0 or less where one lies behind the other.
-double kernel(const Vec3& from, const Vec3& normal, const Vec3& to, const Vec3& emitter_normal) {
-  const Vec3 way = to - from;
-  const double above = dot(normal, way);
-  if (!(above > 0)) return 0;
-  const double squared = length_squared(way);
-  return above * -dot(emitter_normal, way) / (squared * squared);
+/// An area light is near at this part of its radius from its nearest point: its 32 ends are too coarse for it there.
+/// From 0.3 on parts of a pelmet over a window had half of their light, from 1 on the leaves were coarser than ends.
+constexpr double kSplit = 0.4;
+/// Of a quadrilateral, as if it were a rectangle.
+Vec3 nearest_point(const Vec3* corner, const Vec3& from) {
+  Vec3 nearest = corner[0];
+  for (const Vec3& side : {corner[1] - corner[0], corner[3] - corner[0]}) {
+    const double at = dot(from - corner[0], side) / length_squared(side);
+    nearest = nearest + (at > 1 ? 1 : at > 0 ? at : 0) * side;
+  }
+  return nearest;
 }
 
 bool is_in(std::uint32_t faces, std::uint32_t face) { return face < 32 && (faces >> face & 1) != 0; }
@@ -36,27 +39,6 @@ FaceReach reach_of(const SubPatchView& view, const Emitter& emitter) {
 }
 
 }  // namespace
-
-/// One face at work.
-struct FaceLight::Face {
-  const Emitter* emitter = nullptr;
-  Tier tier = Tier::kNear;
-  bool below = true;    // a part may lie below the receiver's horizon
-  bool panes = false;   // a pane may be between
-  double factor[kMostInGroup];  // filled as far as the group goes
-};
-
-/// Faces of a polyhedron that are looked at together.
-struct FaceLight::Batch {
-  Face face[kFacesAtOnce];
-  std::uint32_t count = 0;
-  double given = -1;     // as in look(): shares are found when they are needed
-  LatticeBox box;        // around the ends
-  std::uint32_t own = 0;  // faces (a bit each) whose own polyhedron may be in the way of some sample
-  Aim aim;
-  std::size_t others = 0;  // facets of the aim that are not the polyhedron's own
-  std::uint32_t wanted[kMostInGroup], shadow[kMostInGroup];  // faces, where shares are found later
-};
 
 FaceLight::Tier FaceLight::tier_of(const SubPatchView& view, Face& face) const {
   const Emitter& emitter = *face.emitter;
@@ -118,10 +100,13 @@ void FaceLight::find_factors(const SubPatchView& view, const ReceiverGroup& grou
   }
 }
 
-/// A face at a distance of less than its radius.
-bool FaceLight::is_split(const SubPatchView& view, const Emitter& emitter) {
-  const double squared = length_squared(emitter.centre - view.centre);
-  return emitter.is_area() && emitter.radius * emitter.radius > squared;
+/// An area light whose nearest point is at less than kSplit of its radius.
+bool FaceLight::is_split(const SubPatchView& view, const Emitter& emitter) const {
+  if (!emitter.is_area()) return false;
+  const double reach = kSplit * emitter.radius;
+  if (length_squared(emitter.centre - view.centre) >= (emitter.radius + reach) * (emitter.radius + reach)) return false;
+  const Vec3* corner = scene_->lights[emitter.light].corners;
+  return length_squared(nearest_point(corner, view.centre) - view.centre) < reach * reach;
 }
 
 /// Segments from the leaves to all samples at once.
@@ -224,107 +209,9 @@ void FaceLight::look_at_area(const SubPatchView& view, const ReceiverGroup& grou
       continue;
     }
     const auto whole = [](double weight, std::uint32_t) { return weight; };
-    const double factor = face.factor[k];
-    look.arrives[k] += shadow[k] == 0 ? factor : factor * weights.part(group.point[k], shadow[k], whole);
+    const double part = shadow[k] == 0 ? 1 : weights.part(group.point[k], shadow[k], whole);
+    look.arrives[k] += face.factor[k] * part;
   }
-}
-
-/// Of a polyhedron's faces each sample looks at one Gauss point: neighbours at different ones, so that mirror images of
-/// a sub-patch and of a face are those of each other.
-std::uint32_t end_of(const ReceiverGroup& group, std::uint32_t k) {
-  if (group.count == kGaussSamples) return k;
-  const std::uint32_t index = group.grid_index[k];
-  return (index & 1U) + 2 * (index / kGridCuts & 1U);
-}
-
-/// What the segments from sample k to one end of each face found.
-void FaceLight::count_faces(const ReceiverGroup& group, const Batch& batch, std::uint32_t k, std::uint32_t wanted,
-                            std::uint32_t shadow, const LatticePoint* ends, FaceLook& look) const {
-  for_each_bit(wanted, [&](std::uint32_t f, std::uint32_t bit) {
-    const Face& face = batch.face[f];
-    const double factor = face.factor[k];
-    look.tested[k] += factor;
-    if ((shadow & bit) != 0) return;
-    look.arrives[k] += face.panes ? factor * intersector_->panes().pass(group.lattice[k], ends[f]) : factor;
-  });
-}
-
-/// End `e` of every face in one look from each sample that looks at this one.
-void FaceLight::look_at_ends(const SubPatchView& view, const ReceiverGroup& group, const Link& link, Batch& batch,
-                             bool later, std::uint32_t e, FaceLook& look) const {
-  LatticePoint ends[kFacesAtOnce];
-  LatticeBox box;
-  std::uint32_t above = 0;  // bits of faces
-  for (std::uint32_t f = 0; f < batch.count; ++f) {
-    const Face& face = batch.face[f];
-    const std::uint32_t end = face.emitter->first_end + e;
-    ends[f] = emitters_->lattice_ends[end];
-    box.include(ends[f]);
-    above |= (face.below ? ends_above(view, face, end, 1) : 1) << f;
-  }
-  for (std::uint32_t k = 0; k < group.count; ++k) {
-    if (end_of(group, k) != e && look.reach == FaceReach::kFar) continue;  // near: all samples look at all
-    std::uint32_t wanted = above;
-    for (std::uint32_t f = 0; f < batch.count && batch.given < 0; ++f) {
-      if (!(batch.face[f].factor[k] > 0)) wanted &= ~(1U << f);
-    }
-    std::uint32_t own = 0, shadow = 0;
-    for_each_bit(wanted & batch.own, [&](std::uint32_t f, std::uint32_t bit) {
-      if (!own_facets_miss(*geometry_, *batch.face[f].emitter, group.lattice[k])) own |= bit;
-    });
-    if (wanted != 0 && (batch.others > 0 || own != 0 || batch.aim.any_triangle)) {
-      const Segments segments{group.lattice[k], {ends, batch.count}, box};
-      shadow = intersector_->shadow(segments, wanted, link, batch.aim, batch.others, own);
-    }
-    batch.wanted[k] = wanted;
-    batch.shadow[k] = shadow;
-    if (!later) count_faces(group, batch, k, wanted, shadow, ends, look);
-  }
-}
-
-/// Where each sample sees all faces, or none, their shares don't matter.
-void FaceLight::share_out(const SubPatchView& view, const ReceiverGroup& group, Batch& batch, FaceLook& look) const {
-  bool any = false, all = true;
-  for (std::uint32_t k = 0; k < group.count; ++k) {
-    any = any || batch.shadow[k] != batch.wanted[k];
-    all = all && batch.shadow[k] == 0;
-  }
-  if (any && !all) {
-    find_shares(view, group, batch);
-    for (std::uint32_t k = 0; k < group.count; ++k) {
-      count_faces(group, batch, k, batch.wanted[k], batch.shadow[k], nullptr, look);
-    }
-    return;
-  }
-  for (std::uint32_t k = 0; k < group.count; ++k) {
-    if (batch.wanted[k] == 0) continue;
-    look.tested[k] = batch.given;
-    if (all) look.arrives[k] = batch.given;
-  }
-}
-
-/// The faces of a batch; `only`: there is no other.
-void FaceLight::look_at_faces(const SubPatchView& view, const ReceiverGroup& group, const Link& link,
-                              const LatticeBox& whole, bool only, Batch& batch, FaceLook& look) const {
-  if (batch.count == 0) return;
-  const Emitter& any = *batch.face[0].emitter;
-  if (only && aims_->hidden(any.light, link, group.box, batch.box)) return;
-  batch.aim = aims_->towards(any.light, link, group.box, batch.box, whole);
-  batch.others = batch.aim.facets.size();
-  if (batch.others > 0) batch.others = intersector_->others_first(batch.aim, scene_->meshes[any.mesh].object);
-  const bool panes = intersector_->panes().any() && intersector_->panes().between(group.box, batch.box);
-  batch.own = 0;
-  for (std::uint32_t f = 0; f < batch.count; ++f) {
-    Face& face = batch.face[f];
-    face.panes = panes;
-    if (batch.others == batch.aim.facets.size() || own_facets_miss(*geometry_, *face.emitter, group.box)) continue;
-    batch.own |= 1U << f;
-  }
-  const bool later = batch.given >= 0 && only && !panes;
-  if (batch.given >= 0 && !later) find_shares(view, group, batch);
-  for (std::uint32_t e = 0; e < kFaceEnds; ++e) look_at_ends(view, group, link, batch, later, e, look);
-  if (later) share_out(view, group, batch, look);
-  aims_->used(any.light, batch.aim);
 }
 
 /// From a point at least so far away, of a face of a polyhedron; kNear: not known.
@@ -360,16 +247,6 @@ double FaceLight::factor_at(const Vec3& point, const Receiver& receiver, std::ui
   return sum;
 }
 
-/// All samples get the same share of what they receive together.
-void FaceLight::find_shares(const SubPatchView& view, const ReceiverGroup& group, Batch& batch) const {
-  for (std::uint32_t f = 0; f < batch.count; ++f) {
-    Face& face = batch.face[f];
-    const Emitter& emitter = *face.emitter;
-    const double share = emitter.area * kernel(view.centre, view.receiver->normal, emitter.centre, emitter.normal);
-    for (std::uint32_t k = 0; k < group.count; ++k) face.factor[k] = share;
-  }
-}
-
 /// One face to be looked at; false: nothing of it comes.
 bool FaceLight::take_face(const SubPatchView& view, const ReceiverGroup& group, double given, Face& face,
                           FaceLook& look) const {
@@ -383,10 +260,12 @@ bool FaceLight::take_face(const SubPatchView& view, const ReceiverGroup& group, 
   if (face.tier == Tier::kNothing) return false;
   const FaceReach reach = reach_of(view, *face.emitter);
   if (reach > look.reach) look.reach = reach;
+  look.reaches_of_faces |= 1U << static_cast<std::uint32_t>(reach);
   find_factors(view, group, face);
   bool any = false;
   for (std::uint32_t k = 0; k < group.count; ++k) {
     look.factor[k] += face.factor[k];
+    if (reach == FaceReach::kFar) look.far[k] += face.factor[k];
     any = any || face.factor[k] > 0;
   }
   return any;

@@ -11,9 +11,9 @@
 //
 // The part of it that arrives is that of fixed segments from the samples to the face's ends (light/emitter.h). Those to
 // an area light are weighted by their kernels, so that a point near the horizon counts little and penumbrae are smooth;
-// if it is nearer than its own radius they go to the leaves of a quadtree instead. Of a polyhedron each sample looks at
-// one end of every face, another than its neighbours', or at all where it is near. Segments are tested in bulk
-// (visibility/shadow.h). Where an aim finds nothing in the way none is sent, and none is counted.
+// if its nearest point is at less than 0.4 of its radius they go to the leaves of a quadtree instead. Of a polyhedron
+// each sample looks at one end of every face, another than its neighbours', or at all where it is near. Segments are
+// tested in bulk (visibility/shadow.h). Where an aim finds nothing in the way none is sent, and none is counted.
 // Stack: 2 KiB; no memory.
 #pragma once
 
@@ -40,12 +40,16 @@ enum class FaceReach : std::uint8_t { kFar, kNear, kVeryNear };
 /// One light from the samples of a group; k as there.
 struct FaceLook {
   double factor[kMostInGroup] = {};   // form factor to all faces, nothing in the way
+  double far[kMostInGroup] = {};      // the part of it of faces whose reach is kFar
   double tested[kMostInGroup] = {};   // the part of it in faces of which some end is above the horizon
   double arrives[kMostInGroup] = {};  // the part of `tested` that is visible
   FaceReach reach = FaceReach::kFar;  // of the nearest face
   bool clear = false;                 // nothing is in the way, as an aim showed
   bool split = false;                 // a face was so near that segments went to the leaves of its quadtree
 
+  std::uint32_t reaches_of_faces = 0;  // a bit each
+
+  bool reaches(FaceReach r) const { return (reaches_of_faces >> static_cast<std::uint32_t>(r) & 1) != 0; }
   double visible(std::uint32_t k) const { return tested[k] > 0 ? arrives[k] / tested[k] : 0; }
 };
 
@@ -93,7 +97,7 @@ class FaceLight {
   bool take_face(const SubPatchView& view, const ReceiverGroup& group, double given, Face& face,
                  FaceLook& look) const;
   void find_shares(const SubPatchView& view, const ReceiverGroup& group, Batch& batch) const;
-  static bool is_split(const SubPatchView& view, const Emitter& emitter);
+  bool is_split(const SubPatchView& view, const Emitter& emitter) const;
   // What the segments found, added to `look`.
   void look_at_leaves(const SubPatchView& view, const ReceiverGroup& group, const Link& link, const Face& face,
                       const Aim& aim, FaceLook& look) const;

@@ -6,6 +6,10 @@ namespace shodo {
 
 namespace {
 
+bool is_point(const LatticeBox& box) {
+  return box.low[0] == box.high[0] && box.low[1] == box.high[1] && box.low[2] == box.high[2];
+}
+
 bool within(const LatticeBox& part, const LatticeBox& box) {
   for (int k = 0; k < 3; ++k) {
     if (part.low[k] < box.low[k] || part.high[k] > box.high[k]) return false;
@@ -93,10 +97,11 @@ Aim PatchAims::make(std::uint32_t l, const Link& link, const LatticeBox& from, c
                     const LatticeBox& whole, const EndGrid* grid) {
   List& list = lists_[l];
   if (usable(from) && list.count == kNotYet) keep(list, intersector_->aim(patch_, whole, link));
-  if (!usable(from) || list.count == kTooLong) {
+  if (!usable(from) || list.count >= kDark) {
     const Aim aim = intersector_->aim(from, ends, link);
     return grid == nullptr ? aim : intersector_->sift(aim, from, *grid);
   }
+  if (is_point(from)) return {facets_.subspan(list.first, list.count), false, {}, grid};
   if (grid != nullptr) return intersector_->aim_among(facets_of(list), from, ends, *grid);
   return intersector_->aim_among(facets_of(list), from, ends);
 }

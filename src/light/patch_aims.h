@@ -3,8 +3,9 @@
 // The walk through the tree of facets costs the most of an aim. From a patch to a light it is done once, when a
 // sub-patch first asks; what it finds is listed, and a sub-patch's own aim is what remains of the list. Where there is
 // no room, or a sub-patch's samples don't lie in the patch's box, the aim is made from the tree: the same facets but
-// for order. If nothing is listed, or a single facet hides all of the light from all of the box, no sub-patch has to
-// look. Bytes: 12 a light, and 4 for each of kListed facets.
+// for order. From a single sample the list itself is the aim: to ask each facet whether it can be in the way costs as
+// much as to test it. If nothing is listed, or a single facet hides all of the light from all of the box, no sub-patch
+// has to look. Bytes: 12 a light, and 4 for each of kListed facets.
 #pragma once
 
 #include <cstdint>

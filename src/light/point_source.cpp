@@ -31,14 +31,38 @@ double half_solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   return arctangent2(dot(a, cross(b, c)), product);
 }
 
-/// The cell's corners seen from `eye`; a triangle is a quadrilateral two corners of which are one.
-void corners_of(const QuadCell& cell, const Piece& whole, const Vec3& eye, Vec3* corner) {
-  const double size = cell.size();
-  for (std::uint32_t k = 0; k < 4; ++k) {
-    const double s = size * (cell.x + (k == 1 || k == 2 ? 1 : 0)), t = size * (cell.y + (k >= 2 ? 1 : 0));
-    corner[k] = whole.point(s, t) - eye;
+/// Corners of cells seen from a light. A triangle is a quadrilateral two corners of which are one.
+class CellCorners {
+ public:
+  CellCorners(const Piece& whole, const Vec3& eye) : whole_(whole), eye_(eye), from_(whole.corner[0] - eye) {
+    side_s_ = whole.corner[1] - whole.corner[0];
+    side_t_ = whole.corner[3] - whole.corner[0];
+    const Vec3 rest = (whole.corner[2] - whole.corner[3]) - side_s_;
+    affine_ = length_squared(rest) <= kParallel * kParallel * length_squared(side_s_);
   }
-}
+  void find(const QuadCell& cell, Vec3* corner) const {
+    const double size = cell.size(), s = size * cell.x, t = size * cell.y;
+    if (affine_) {
+      const Vec3 along_s = size * side_s_, along_t = size * side_t_;
+      corner[0] = from_ + (s * side_s_ + t * side_t_);
+      corner[1] = corner[0] + along_s;
+      corner[2] = corner[1] + along_t;
+      corner[3] = corner[0] + along_t;
+      return;
+    }
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      corner[k] = whole_.point(s + (k == 1 || k == 2 ? size : 0), t + (k >= 2 ? size : 0)) - eye_;
+    }
+  }
+
+ private:
+  /// Sides that differ by less, of their length, do so by rounding.
+  static constexpr double kParallel = 0x1p-40;
+
+  const Piece& whole_;
+  Vec3 eye_, from_, side_s_, side_t_;
+  bool affine_ = false;
+};
 
 }  // namespace
 
@@ -82,11 +106,12 @@ double near_point_mean(const Scene& scene, const Light& light, const Piece& piec
   const double limit = kCellAngle * kCellAngle / (1 + exponent_of(light));
   const double step_squared = step * step;
   double flux = 0;  // cd sr
+  const CellCorners corners(whole, light.position);
   QuadCell cell;
   do {
     Vec3 corner[4], centre;
     for (;;) {
-      corners_of(cell, whole, light.position, corner);
+      corners.find(cell, corner);
       centre = 0.25 * ((corner[0] + corner[1]) + (corner[2] + corner[3]));
       if (cell.depth == kDepth || size_squared(corner) <= limit * length_squared(centre)) break;
       cell.descend();

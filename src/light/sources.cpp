@@ -9,6 +9,8 @@ namespace {
 
 /// A patch is as far from a light as so many of its own radii, or more, if its factors are interpolated.
 constexpr double kFieldRadii = 4;
+/// A sub-patch likewise, if its centre's factor is taken for its mean: within 1/1000.
+constexpr double kCentreRadii = 12;
 
 Vec3 unit_of(const LatticeVector& v) {
   return normalised({static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)});
@@ -41,6 +43,32 @@ Status Sources::prepare(Arena& arena) {
     source.to_sun_unit = unit_of(source.to_sun);
   }
   return {};
+}
+
+/// E A / (pi L A_e), or of a polyhedron, for a sphere, E A / (4 pi I).
+double Sources::share_squared(std::uint32_t l, const SubPatchView& view, double area,
+                              double shared_factor) const {
+  const Source& source = sources_[l];
+  const double squared = length_squared(source.centre - view.centre);
+  const double near = source.radius + (shared_factor > 0 ? kFieldRadii : kCentreRadii) * view.radius;
+  if (squared < near * near) return 1;
+  // Parts of light and sub-patch are as much higher as half a radius.
+  const double above = view.receiver->height(source.centre) + 0.5 * source.radius;
+  if (!(above > 0)) return 0;
+  const Emitter& face = emitters_.faces[source.first_emitter];
+  double share = area * kInversePi / squared;
+  if (!face.is_area()) return 0.0625 * share * share * (above * above / squared);
+  const double front = face.height(view.centre) + 0.5 * face.radius;
+  if (front > 0) share *= above * front / squared;
+  return front > 0 ? share * share : 0;
+}
+
+double Sources::point_share(std::uint32_t l, const Vec3& centre, double lux, double area) const {
+  const Light& point = light(l);
+  const double metres = scene_->metres_per_unit;
+  const double solid_angle = point.aimed ? 2 * kPi / (point.cosine_exponent + 1) : 4 * kPi;
+  if (!inverse_square(point)) lux /= relative_attenuation(point, length(point.position - centre) * metres);
+  return lux * area * (metres * metres) / (point.strength * solid_angle);
 }
 
 void Sources::enclose(Source& source) const {

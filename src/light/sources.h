@@ -11,6 +11,7 @@
 #include "base/arena.h"
 #include "light/face_light.h"
 #include "light/factor_field.h"
+#include "light/point_source.h"
 #include "light/receiver.h"
 #include "scene/scene.h"
 #include "visibility/geometry.h"
@@ -42,8 +43,8 @@ class Sources {
   void share_factors(const Receiver& receiver, const Piece& patch);
   /// Of an area or polyhedral light, nothing in the way: the mean over a sub-patch; -1: each is to ask for itself.
   double shared_factor(std::uint32_t l, const Receiver& receiver);
-  /// A sub-patch of it comes.
-  void start_sub_patch() {
+  /// A sub-patch of it comes, or the intersector's list was used otherwise.
+  void forget_aims() {
     aims_.forget();
     aimed_ = kNone;
   }
@@ -53,11 +54,22 @@ class Sources {
   /// What light l shows to all of the patch.
   Shown shown(std::uint32_t l, const Receiver& receiver);
 
+  /// The part of the flux of an area or polyhedral light that falls on a sub-patch of this area, squared; nothing in
+  /// the way, roughly and not much too little. 1 for a light nearer than so many radii of the sub-patch that the
+  /// centre's form factor isn't the mean's, where there is no `shared_factor`.
+  double share_squared(std::uint32_t l, const SubPatchView& view, double area, double shared_factor) const;
+  /// The same of a point light, by what the sub-patch's centre receives.
+  double point_share(std::uint32_t l, const Vec3& centre, double lux, double area) const;
+
   /// False if point light or sun l is behind the receiver's plane.
   bool may_shine_on(std::uint32_t l, const Receiver& receiver) const;
   /// Of a point light or a sun. `trace_dark`: look for blockers even where the light sends nothing, so that `visible`
   /// holds there too.
   Received receive(std::uint32_t l, const Receiver& receiver, const Sample& sample, bool trace_dark = false);
+  /// The same of a point light, nothing in the way.
+  double point_lux_at(std::uint32_t l, const Receiver& receiver, const Vec3& point) const {
+    return point_lux(*scene_, light(l), receiver, point, geometry_->lattice.step()).lux;
+  }
   /// Of an area or polyhedral light.
   FaceLook look(std::uint32_t l, const SubPatchView& view, const ReceiverGroup& group, double shared_factor = -1);
   /// The same without segments: `factor` only, of the faces within this reach.

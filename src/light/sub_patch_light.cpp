@@ -1,38 +1,24 @@
 #include "light/sub_patch_light.h"
 
-#include "light/piece_grid.h"
-#include "light/point_source.h"
-#include "light/sample_shift.h"
+#include "light/sub_patch_work.h"
 #include "visibility/hidden.h"
 
 namespace shodo {
 
 namespace {
 
-constexpr std::uint32_t kMostProbes = 5;
-constexpr std::uint32_t kAllSamples = (std::uint32_t{1} << kGridSamples) - 1;
+/// A light of whose flux a sub-patch gets a smaller part than this is looked at from its centre alone; an area light
+/// below kFaint with as few ends as other samples have. So work goes where the light goes. In a room of 10,000
+/// sub-patches the mean part is 1/10,000.
+constexpr double kFaint = 1e-4;
+constexpr double kWeakArea = 1e-3;
+constexpr double kWeakPolyhedron = 1.5e-4;
 
+constexpr std::uint32_t kAllSamples = (std::uint32_t{1} << kGridSamples) - 1;
 /// Values of the visible part at most so far apart, and none of them nothing, agree.
 constexpr double kAgree = 0.5;
-/// Illuminance is nearly linear if the mean of opposite corners is off the centre's by less than this part of the
-/// largest. The rule's own error is about the square of it.
-constexpr double kNearlyLinear = 1.0 / 16;
 
-/// The samples of the first look at a point light or sun: the centre, then the corners of the 4 x 4 grid.
-struct Probes {
-  Sample sample[kMostProbes];
-  double weight[kMostProbes];  // sum 1
-  std::uint32_t grid_index[kMostProbes];
-  std::uint32_t count = 0;
-};
-
-/// What the lights that need all samples send to each.
-struct Fine {
-  double lux[kGridSamples][3] = {};
-  double factor[kGridSamples] = {};
-  std::uint32_t lit = 0;  // bit k: sample k
-  bool used = false;
-};
+}  // namespace
 
 /// Whether the visible parts disagree. Values that a light doesn't shine on (outside its distribution, behind it) say
 /// nothing about what is in the way, unless segments were sent all the same.
@@ -47,142 +33,79 @@ bool disagree(const Received* received, std::uint32_t count, bool all_traced) {
   return most - least > kAgree || (least == 0 && most > 0);
 }
 
-bool any_arrives(const Received* received, std::uint32_t count) {
-  for (std::uint32_t k = 0; k < count; ++k) {
-    if (received[k].visible > 0) return true;
-  }
-  return false;
+void SubPatch::place_centre() {
+  if (centre_group_.count == 0) centre_group_ = centre_group(sources_.scene(), sources_.geometry(), receiver_, piece_);
 }
 
-class SubPatch {
- public:
-  SubPatch(Sources& sources, const Receiver& receiver, const Piece& piece, bool thin)
-      : sources_(sources), receiver_(receiver), piece_(piece), grid_(piece, kGridCuts, thin), thin_(thin) {
-    sources.start_sub_patch();
-    view_.receiver = &receiver;
-    view_.centre = piece.centre();
-    for (std::uint32_t k = 0; k < piece.corners; ++k) {
-      const double reach = length(piece.corner[k] - view_.centre);
-      if (reach > view_.radius) view_.radius = reach;
-    }
+/// Asked for once.
+SubPatch::Above SubPatch::above() {
+  if (above_ == Above::kUnknown) {
+    place_centre();
+    const bool under = under_backs(sources_.intersector(), {centre_group_.lattice, 1}, receiver_.normal);
+    above_ = !under ? Above::kOpen : all_hidden() ? Above::kHidden : Above::kCovered;
+    sources_.forget_aims();
   }
-
-  SubPatchLight light() {
-    for (std::uint32_t l = 0; l < sources_.count(); ++l) {
-      const LightKind kind = sources_.light(l).kind;
-      if (kind == LightKind::kPoint || kind == LightKind::kSun) {
-        add_point(l);
-      } else {
-        add_faces(l);
-      }
-    }
-    add_fine();
-    if (!reached_ && !fine_.used) sum_.hidden = all_hidden();
-    return sum_;
-  }
-
- private:
-  Sample at(const Vec3& point) const { return sample_at(sources_.scene(), sources_.geometry(), receiver_, point); }
-  void place_probes();
-  void add_point(std::uint32_t l);
-  // Not inlined: the stack of one is needed while the others' isn't.
-  [[gnu::noinline]] void add_faces(std::uint32_t l);
-  void add_uniform(std::uint32_t l, const Received* received, const double* weight, std::uint32_t count);
-  [[gnu::noinline]] void sample_finely(std::uint32_t l, const Received* probed, bool near, double mean);
-  Sample fine_sample(std::uint32_t k) const;
-  double centre_sees(std::uint32_t l, double shared);
-  [[gnu::noinline]] Received near_mean(std::uint32_t l) const;
-  [[gnu::noinline]] void look_finely(std::uint32_t l, const Received& mean, double shared);
-  double fine_weight(std::uint32_t k) const { return grid_.fine(k).weight * grid_.weight_at(grid_.fine(k).at); }
-  void add_to_fine(std::uint32_t l, std::uint32_t k, const Received& received, double correction);
-  [[gnu::noinline]] void add_fine();
-  bool bent(const Received* received) const;
-  bool faint(std::uint32_t l, const Received* received) const;
-  [[gnu::noinline]] bool all_hidden();
-  std::uint32_t hidden_of(std::uint32_t samples) const;
-  double colour(std::uint32_t l, std::uint32_t channel) const { return sources_.light(l).colour.c[channel]; }
-  std::uint32_t channels() const { return sources_.scene().channels; }
-
-  Sources& sources_;
-  const Receiver& receiver_;
-  const Piece& piece_;
-  PieceGrid grid_;
-  bool thin_;
-  SubPatchView view_;
-  Probes probes_;        // count 0: not placed yet
-  ReceiverGroup gauss_, centre_;  // likewise
-  SampleShift shift_;
-  bool shifted_ = false;  // the fine samples have looked at the sun, which they do from other places in their cells
-  Fine fine_;
-  SubPatchLight sum_;
-  bool reached_ = false;  // some light was found the same all over
-  bool lit_ = false;      // and nothing was in its way: no sample is hidden
-};
-
-/// Weights: corner samples lie at 3/4 of the way from the centre, and the second moment of the piece has to come out:
-/// 16/27 for the corners together, on a triangle 4/9. Thin pieces have all samples in the middle: each counts the same.
-void SubPatch::place_probes() {
-  if (probes_.count > 0) return;
-  const std::uint32_t corners = grid_.corner_count();
-  const double at_corners = thin_ ? corners / (corners + 1.0) : corners == 3 ? 4.0 / 9 : 16.0 / 27;
-  probes_.sample[0] = at(piece_.centre());
-  probes_.weight[0] = (1 - at_corners) * grid_.centre_weight();
-  probes_.grid_index[0] = kGridSamples;
-  double total = probes_.weight[0];
-  for (std::uint32_t k = 1; k <= corners; ++k) {
-    const std::uint32_t index = grid_.corner(k - 1);
-    probes_.sample[k] = at(grid_.point(index));
-    probes_.weight[k] = at_corners / corners * grid_.weight(index);
-    probes_.grid_index[k] = index;
-    total += probes_.weight[k];
-  }
-  probes_.count = corners + 1;
-  LatticeBox box;
-  for (std::uint32_t k = 0; k <= corners; ++k) {
-    probes_.weight[k] /= total;
-    box.include(probes_.sample[k].lattice);
-  }
-  sources_.expect(box);
+  return above_;
 }
 
-void SubPatch::add_point(std::uint32_t l) {
-  const Light& light = sources_.light(l);
-  if (!sources_.may_shine_on(l, receiver_) || sources_.shown(l, receiver_) == Shown::kNothing) return;
-  const double step = sources_.geometry().lattice.step();
-  const bool near = light.kind == LightKind::kPoint && near_point(light, receiver_, piece_, step);
-  const double mean = near ? near_point_mean(sources_.scene(), light, piece_, step) : 0;
-  if (near && !(mean > 0)) return;
-  place_probes();
-  Received received[kMostProbes];
-  for (std::uint32_t k = 0; k < probes_.count; ++k) {
-    received[k] = sources_.receive(l, receiver_, probes_.sample[k], near);
+/// What the centre alone receives stands for the sub-patch. It says nothing about other samples: that they aren't
+/// hidden, say. False: it is dark, and covered.
+bool SubPatch::add_at_centre(std::uint32_t l, const Received& received) {
+  if (!(received.visible > 0)) return !covered();
+  centre_lit_ = true;
+  const bool reached = reached_, lit = lit_;
+  const double one = 1;
+  add_uniform(l, &received, &one, 1);
+  reached_ = reached;
+  lit_ = lit;
+  return true;
+}
+
+bool SubPatch::add_from_centre(std::uint32_t l, double shared, EndSet ends) {
+  place_centre();
+  centre_group_.ends_of_area = ends;
+  const FaceLook look = sources_.look(l, view_, centre_group_, shared);
+  Received received = sources_.received(l, centre_group_, look, 0);
+  if (shared > 0) {
+    received = sources_.all_of(l, shared);
+    received.visible = look.visible(0);
   }
-  if (!any_arrives(received, probes_.count)) return;
-  if (disagree(received, probes_.count, near) || (!near && bent(received) && !faint(l, received))) {
-    sample_finely(l, received, near, mean);
-    return;
-  }
-  for (std::uint32_t k = 0; near && k < probes_.count; ++k) received[k].lux = mean;
-  add_uniform(l, received, probes_.weight, probes_.count);
+  if (!(received.lux > 0)) return true;
+  if (!add_at_centre(l, received)) return false;
+  if (!(received.visible > 0)) note_dark();
+  return true;
 }
 
 void SubPatch::add_faces(std::uint32_t l) {
   const double shared = sources_.shared_factor(l, receiver_);
   if (shared == 0) return;
   const Shown shown = sources_.shown(l, receiver_);
-  if (shown == Shown::kNothing) return;
-  if (shown == Shown::kAll && shared > 0) {
-    const Received all = sources_.all_of(l, shared);
-    const double one = 1;
-    add_uniform(l, &all, &one, 1);
+  if (shown == Shown::kNothing && shared > 0) {
+    note_dark();
     return;
   }
+  const bool area = sources_.light(l).kind == LightKind::kArea;
+  const Received all = shared > 0 ? sources_.all_of(l, shared) : Received{};
+  const double share = sources_.share_squared(l, view_, area_, shared), least = area ? kWeakArea : kWeakPolyhedron;
+  const bool weak = share < least * least;
+  if (shown == Shown::kAll && shared > 0) {
+    const double one = 1;
+    if (weak) {
+      add_at_centre(l, all);
+    } else {
+      add_uniform(l, &all, &one, 1);
+    }
+    return;
+  }
+  if (weak) {
+    if (add_from_centre(l, shared, share < kFaint * kFaint ? kFirstEnds : kAllEnds)) return;
+  }
+  place_centre();
   if (gauss_.count == 0) {
     gauss_ = gauss_group(sources_.scene(), sources_.geometry(), receiver_, grid_);
-    centre_ = centre_group(sources_.scene(), sources_.geometry(), receiver_, piece_);
-    gauss_.box.include(centre_.box);  // what is clear for the ones is for the other
+    gauss_.box.include(centre_group_.box);  // what is clear for the ones is for the other
   }
-  const FaceLook look = sources_.look(l, view_, gauss_, shared);
+  FaceLook look = sources_.look(l, view_, gauss_, shared);
   Received received[kGaussSamples], mean;
   double weight[kGaussSamples], total = kGaussSamples;
   if (grid_.affine()) {
@@ -201,22 +124,23 @@ void SubPatch::add_faces(std::uint32_t l) {
   const bool unseen = !(mean.lux > 0);  // though a part of the sub-patch may be in front
   double visible = unseen ? 0 : arrives / mean.lux;
   if (shared > 0) {
-    mean = sources_.all_of(l, shared);
+    mean = all;
     visible = 0.25 * ((received[0].visible + received[1].visible) + (received[2].visible + received[3].visible));
   }
-  if (shared < 0 && look.reach != FaceReach::kFar) mean = near_mean(l);
+  if (shared < 0 && look.reach != FaceReach::kFar) mean = near_mean(l, look);
   if (!(mean.lux > 0)) return;
   mean.visible = visible;
-  const bool area = sources_.light(l).kind == LightKind::kArea;
-  if (unseen || disagree(received, kGaussSamples, false)) {
+  if (unseen || disagree(received, kGaussSamples, false) || (visible == 0 && covered())) {
     look_finely(l, mean, shared);
     return;
   }
+  if (visible == 0) note_dark();
   const bool all_free = look.clear && visible == 1;  // the centre would see the same
   if (area && !all_free && !look.split) {
     // Both sets count by the number of places that they look at.
     const double from_centre = centre_sees(l, shared);
-    if (from_centre >= 0) mean.visible = (kFewEnds * visible + kAreaEnds * from_centre) / (kFewEnds + kAreaEnds);
+    const bool speaks = from_centre > 0 || (from_centre == 0 && above() != Above::kCovered);
+    if (speaks) mean.visible = (kFewEnds * visible + kAreaEnds * from_centre) / (kFewEnds + kAreaEnds);
   }
   const double one = 1;
   add_uniform(l, &mean, &one, 1);
@@ -224,15 +148,16 @@ void SubPatch::add_faces(std::uint32_t l) {
 
 /// The part of an area light that is visible from the centre; -1 if the light is below its horizon.
 double SubPatch::centre_sees(std::uint32_t l, double shared) {
-  const FaceLook look = sources_.look(l, view_, centre_, shared < 0 ? 1 : shared);  // any: only the part is asked for
+  centre_group_.ends_of_area = kAllEnds;
+  const double given = shared < 0 ? 1 : shared;  // any: only the part is asked for
+  const FaceLook look = sources_.look(l, view_, centre_group_, given);
   return look.tested[0] > 0 ? look.visible(0) : -1;
 }
 
-/// Nothing in the way; each face by the rule that suits its reach.
-Received SubPatch::near_mean(std::uint32_t l) const {
+/// Nothing in the way; each face by the rule that suits its reach. `at_gauss`: what the Gauss points found.
+Received SubPatch::near_mean(std::uint32_t l, FaceLook& at_gauss) const {
   Received mean;
-  const auto add = [&](const ReceiverGroup& group, FaceReach reach, auto weight_of) {
-    const FaceLook look = sources_.factors(l, view_, group, reach);
+  const auto add = [&](const ReceiverGroup& group, const FaceLook& look, auto weight_of) {
     for (std::uint32_t k = 0; k < group.count; ++k) {
       const Received received = sources_.received(l, group, look, k);
       mean.lux += weight_of(k) * received.lux;
@@ -240,44 +165,25 @@ Received SubPatch::near_mean(std::uint32_t l) const {
     }
   };
   double gauss = 0, fine = 0, grid = 0;
-  for (std::uint32_t k = 0; k < kGaussSamples; ++k) gauss += grid_.weight_at(grid_.gauss(k));
-  for (std::uint32_t k = 0; k < grid_.fine_count(); ++k) fine += fine_weight(k);
+  for (std::uint32_t k = 0; k < kGaussSamples; ++k) {
+    gauss += grid_.weight_at(grid_.gauss(k));
+    at_gauss.factor[k] = at_gauss.far[k];
+  }
+  add(gauss_, at_gauss, [&](std::uint32_t k) { return grid_.weight_at(grid_.gauss(k)) / gauss; });
+  if (at_gauss.reaches(FaceReach::kNear)) {
+    for (std::uint32_t k = 0; k < grid_.fine_count(); ++k) fine += fine_weight(k);
+    const ReceiverGroup group = fine_group(grid_);
+    add(group, sources_.factors(l, view_, group, FaceReach::kNear),
+        [&](std::uint32_t k) { return fine_weight(k) / fine; });
+  }
+  if (!at_gauss.reaches(FaceReach::kVeryNear)) return mean;
   for (std::uint32_t k = 0; k < kGridSamples; ++k) grid += grid_.weight(k);
-  add(gauss_, FaceReach::kFar, [&](std::uint32_t k) { return grid_.weight_at(grid_.gauss(k)) / gauss; });
-  add(fine_group(grid_), FaceReach::kNear, [&](std::uint32_t k) { return fine_weight(k) / fine; });
   for (std::uint32_t half = 0; half < 2; ++half) {
     const ReceiverGroup group = grid_half(grid_, half);
-    add(group, FaceReach::kVeryNear, [&](std::uint32_t k) { return grid_.weight(group.grid_index[k]) / grid; });
+    add(group, sources_.factors(l, view_, group, FaceReach::kVeryNear),
+        [&](std::uint32_t k) { return grid_.weight(group.grid_index[k]) / grid; });
   }
   return mean;
-}
-
-bool SubPatch::faint(std::uint32_t l, const Received* received) const {
-  if (sources_.light(l).kind != LightKind::kPoint) return false;
-  double largest = 0;
-  for (std::uint32_t k = 0; k < probes_.count; ++k) {
-    if (received[k].lux > largest) largest = received[k].lux;
-  }
-  return is_faint(sources_.scene(), sources_.light(l), view_.centre, largest);
-}
-
-bool SubPatch::bent(const Received* received) const {
-  const double centre = received[0].lux;
-  double largest = centre, corners = 0, worst = 0;
-  for (std::uint32_t k = 1; k < probes_.count; ++k) {
-    if (received[k].lux > largest) largest = received[k].lux;
-    corners += received[k].lux;
-  }
-  const auto off_centre = [&](double mean) {
-    const double off = mean < centre ? centre - mean : mean - centre;
-    if (off > worst) worst = off;
-  };
-  off_centre(corners / (probes_.count - 1));
-  if (probes_.count == 5) {
-    off_centre(0.5 * (received[1].lux + received[4].lux));
-    off_centre(0.5 * (received[2].lux + received[3].lux));
-  }
-  return worst > kNearlyLinear * largest;
 }
 
 void SubPatch::add_uniform(std::uint32_t l, const Received* received, const double* weight, std::uint32_t count) {
@@ -301,34 +207,6 @@ void SubPatch::add_to_fine(std::uint32_t l, std::uint32_t k, const Received& rec
   if (!(received.visible > 0)) return;
   fine_.lit |= std::uint32_t{1} << k;
   fine_.used = true;
-}
-
-/// A place of sample k to start segments from.
-Sample SubPatch::fine_sample(std::uint32_t k) const {
-  return at(shifted_ ? grid_.point(k, shift_.in_cell(k)) : grid_.point(k));
-}
-
-/// Asks for all samples; those next to the corners have answered already. Near a point light the values at the samples
-/// only share out the mean. The sun is looked at from elsewhere in their cells (light/sample_shift.h).
-void SubPatch::sample_finely(std::uint32_t l, const Received* probed, bool near, double mean) {
-  const bool elsewhere = sources_.light(l).kind == LightKind::kSun && grid_.corner_count() == 4;
-  if (elsewhere && !shifted_) {
-    shift_ = SampleShift(sources_.geometry().lattice, probes_.sample[0].lattice, piece_);
-    shifted_ = true;
-  }
-  Received received[kGridSamples];
-  double weight = 0, lux = 0;
-  for (std::uint32_t k = 0; k < kGridSamples; ++k) {
-    std::uint32_t probe = elsewhere ? probes_.count : 1;
-    while (probe < probes_.count && probes_.grid_index[probe] != k) ++probe;
-    received[k] = probe < probes_.count ? probed[probe]
-                  : elsewhere           ? sources_.receive(l, receiver_, fine_sample(k), near)
-                                        : sources_.receive(l, receiver_, at(grid_.point(k)), near);
-    weight += grid_.weight(k);
-    lux += grid_.weight(k) * received[k].lux;
-  }
-  const double correction = !near ? 1 : lux > 0 ? mean * weight / lux : 0;
-  for (std::uint32_t k = 0; k < kGridSamples; ++k) add_to_fine(l, k, received[k], correction);
 }
 
 /// Each half of the samples looks at ends of its own. Their values only share out the mean, which is known better.
@@ -381,21 +259,20 @@ std::uint32_t SubPatch::hidden_of(std::uint32_t samples) const {
     index[count] = k;
     lattice[count++] = fine_sample(k).lattice;
   }
-  const std::uint32_t found = hidden_samples(sources_.intersector(), {lattice, count}, receiver_.normal, false);
+  const std::uint32_t found = hidden_samples(sources_.intersector(), {lattice, count}, receiver_.normal);
   std::uint32_t hidden = 0;
   for (std::uint32_t k = 0; k < count; ++k) hidden |= (found >> k & 1) << index[k];
   return hidden;
 }
 
+/// The centre is, and above all corners there are backs.
 bool SubPatch::all_hidden() {
   place_probes();
   LatticePoint lattice[kMostProbes];
   for (std::uint32_t k = 0; k < probes_.count; ++k) lattice[k] = probes_.sample[k].lattice;
-  const std::uint32_t all = (std::uint32_t{1} << probes_.count) - 1;
-  return hidden_samples(sources_.intersector(), {lattice, probes_.count}, receiver_.normal, true) == all;
+  return under_backs(sources_.intersector(), {lattice, probes_.count}, receiver_.normal) &&
+         hidden_samples(sources_.intersector(), {lattice, 1}, receiver_.normal) == 1;
 }
-
-}  // namespace
 
 SubPatchLight light_sub_patch(Sources& sources, const Receiver& receiver, const Piece& piece, bool thin) {
   return SubPatch(sources, receiver, piece, thin).light();

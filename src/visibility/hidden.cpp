@@ -20,39 +20,76 @@ Vec3 tangent_of(const Vec3& n) {
   return normalised(cross(axis, n));
 }
 
+/// The directions over a surface, on the lattice.
+class Directions {
+ public:
+  explicit Directions(const Vec3& normal)
+      : normal_(normal), tangent_(tangent_of(normal)), bitangent_(cross(normal, tangent_)) {}
+  LatticeVector at(const double (&along)[3]) const {
+    return lattice_direction(along[0] * tangent_ + along[1] * bitangent_ + along[2] * normal_);
+  }
+
+ private:
+  Vec3 normal_, tangent_, bitangent_;
+};
+
+/// What rays from a box along one direction meet: first all that is near is gathered, then, if need be, all else.
+class Rays {
+ public:
+  Rays(Intersector& intersector, const LatticeBox& from, const LatticeVector& direction)
+      : intersector_(intersector), from_(from), direction_(direction),
+        gathered_(intersector.gather_near(from, direction)), all_(gathered_.any_triangle) {}
+  bool meets_back(const LatticePoint& sample) {
+    Hit hit = intersector_.nearest(sample, direction_, gathered_);
+    if (!all_ && !hit.near) {
+      gathered_ = intersector_.gather_along(from_, direction_);
+      all_ = true;
+      hit = intersector_.nearest(sample, direction_, gathered_);
+    }
+    return hit.triangle != kNone && !hit.front;
+  }
+
+ private:
+  Intersector& intersector_;
+  LatticeBox from_;
+  LatticeVector direction_;
+  Aim gathered_;
+  bool all_;
+};
+
 }  // namespace
 
-std::uint32_t hidden_samples(Intersector& intersector, std::span<const LatticePoint> samples, const Vec3& normal,
-                             bool only_if_all) {
-  const Vec3 tangent = tangent_of(normal), bitangent = cross(normal, tangent);
+std::uint32_t hidden_samples(Intersector& intersector, std::span<const LatticePoint> samples, const Vec3& normal) {
+  const Directions directions(normal);
   std::uint32_t backs[kMostHiddenSamples] = {};
   std::uint32_t open = 0, hidden = 0;  // a bit a sample: not decided yet, decided
   for (std::uint32_t k = 0; k < samples.size(); ++k) open |= std::uint32_t{1} << k;
   for (const double(&along)[3] : kDirections) {
-    const LatticeVector direction = lattice_direction(along[0] * tangent + along[1] * bitangent + along[2] * normal);
     LatticeBox box;
     for (std::uint32_t k = 0; k < samples.size(); ++k) {
       if ((open >> k & 1) != 0) box.include(samples[k]);
     }
-    Aim gathered = intersector.gather_near(box, direction);
-    bool all = gathered.any_triangle;
+    Rays rays(intersector, box, directions.at(along));
     for (std::uint32_t k = 0; k < samples.size(); ++k) {
       const std::uint32_t bit = std::uint32_t{1} << k;
       if ((open & bit) == 0) continue;
-      Hit hit = intersector.nearest(samples[k], direction, gathered);
-      if (!all && !hit.near) {
-        gathered = intersector.gather_along(box, direction);
-        all = true;
-        hit = intersector.nearest(samples[k], direction, gathered);
-      }
-      if (hit.triangle != kNone && !hit.front) ++backs[k];
+      if (rays.meets_back(samples[k])) ++backs[k];
       if (backs[k] == kEnoughBacks) hidden |= bit;
       if (backs[k] == 0 || backs[k] == kEnoughBacks) open &= ~bit;
-      if (backs[k] == 0 && only_if_all) return 0;
     }
     if (open == 0) break;
   }
   return hidden;
+}
+
+bool under_backs(Intersector& intersector, std::span<const LatticePoint> samples, const Vec3& normal) {
+  LatticeBox box;
+  for (const LatticePoint& sample : samples) box.include(sample);
+  Rays rays(intersector, box, Directions(normal).at(kDirections[0]));
+  for (const LatticePoint& sample : samples) {
+    if (!rays.meets_back(sample)) return false;
+  }
+  return true;
 }
 
 }  // namespace shodo

@@ -19,9 +19,10 @@ namespace shodo {
 
 inline constexpr std::uint32_t kMostHiddenSamples = 16;
 
-/// Which of up to 16 samples are hidden, a bit each; `normal` is their surface's, unit. With `only_if_all` the search
-/// ends when one isn't, and the answer is 0 then. Wide aims of the intersector are not valid afterwards.
-std::uint32_t hidden_samples(Intersector& intersector, std::span<const LatticePoint> samples, const Vec3& normal,
-                             bool only_if_all);
+/// Which of up to 16 samples are hidden, a bit each; `normal` is their surface's, unit. Wide aims of the intersector
+/// are not valid afterwards.
+std::uint32_t hidden_samples(Intersector& intersector, std::span<const LatticePoint> samples, const Vec3& normal);
+/// Whether all samples meet a back in the first direction, without which none is hidden.
+bool under_backs(Intersector& intersector, std::span<const LatticePoint> samples, const Vec3& normal);
 
 }  // namespace shodo

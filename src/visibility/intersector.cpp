@@ -316,20 +316,17 @@ std::uint32_t Intersector::shadow_among(const Segments& segments, std::uint32_t 
   const LatticeBox from = box_of(segments.from);
   LatticeBox around = from;
   around.include(segments.box);
-  const bool sifted = aim.grid != nullptr;
+  const bool sifted = !aim.hides.empty();
   for (std::uint32_t k = 0; k < facets.size() && shadow != wanted; ++k) {
     std::uint32_t open = wanted & ~shadow;
     if (sifted) open &= aim.hides[k];
     if (open == 0) continue;
     const Facet& facet = blockers_.facets()[facets[k]];
+    if (!sifted && apart(around, facet.box)) continue;
+    // Of sifted facets a rectangle is as soon tested.
+    if (aim.grid != nullptr && (!sifted || facet.rectangle == 0)) open &= aim.grid->shadow(facet.box, from);
+    if (open == 0) continue;
     tests += facet.count * count_bits(open);
-    if (facet.rectangle != 0) {  // the test itself is as fast
-    } else if (!sifted) {
-      if (apart(around, facet.box)) continue;
-    } else {
-      open &= aim.grid->shadow(facet.box, from);
-      if (open == 0) continue;
-    }
     const std::span<const Triangle> triangles = triangles_of(facet);
     const std::uint32_t more = shadow_of(facet, triangles, segments, open);
     if (more == 0) continue;

@@ -37,7 +37,7 @@ struct Aim {
   std::span<std::uint32_t> facets;
   bool any_triangle = true;         // nothing is known: flags off
   std::span<std::uint32_t> hides{};  // by facet, the ends that it can hide, a bit each; empty: any
-  const EndGrid* grid = nullptr;     // of the ends, if there is `hides`
+  const EndGrid* grid = nullptr;     // of the ends; it is asked about a facet if there is no `hides`
 
   /// No segment is blocked: none is needed.
   bool clear() const { return features::kAims && !any_triangle && facets.empty(); }

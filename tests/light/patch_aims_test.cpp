@@ -102,6 +102,49 @@ TEST(PatchAims, FindTheFacetsThatTheTreeFinds) {
   EXPECT_GT(longest, 1024u);
 }
 
+/// From one sample nothing is sifted: shadows are those of all triangles all the same.
+TEST(PatchAims, FromASingleSampleHideWhatAllTrianglesHide) {
+  Random random(3);
+  HandMadeScene scene;
+  build(scene, random);
+  Intersector listed(scene.geometry, scene.scene, FlagMode::kAuto);
+  ASSERT_TRUE(listed.start(scene.arena, Rectangles::kWhole));
+  Intersector off(scene.geometry);
+  PatchAims aims(listed);
+  ASSERT_TRUE(aims.take(scene.arena, 1));
+  int none = 0, some = 0, gridded = 0;
+  for (int trial = 0; trial < 1500; ++trial) {
+    const LatticeBox patch = box_about(random, 1 << (8 + random.below(10)), 0);
+    const LatticeBox light = box_about(random, 1 << (8 + random.below(10)), kLatticeHalf);
+    aims.start(patch, false);
+    std::vector<LatticePoint> ends;
+    LatticeBox around;
+    for (int k = 0; k < 32; ++k) {
+      const LatticeBox at = part_of(random, light);
+      ends.push_back({at.low[0] | 1, at.low[1] | 1, at.low[2] | 1});
+      around.include(ends.back());
+    }
+    LatticeBox whole = light;
+    whole.include(around);
+    const LatticeBox within = part_of(random, patch);
+    const LatticePoint from{within.low[0] | 1, within.low[1] | 1, within.low[2] | 1};
+    LatticeBox at;
+    at.include(from);
+    if (!patch.contains(from, 0)) continue;
+    const EndGrid grid(ends, around);
+    const std::uint32_t wanted = random.below(0xFFFFFFFF);
+    const Segments segments{from, ends, around};
+    const Aim aim = aims.towards(0, {}, at, around, whole, grid.usable() ? &grid : nullptr);
+    const std::uint32_t expected = off.shadow(segments, wanted, {}, Aim{});
+    EXPECT_EQ(listed.shadow(segments, wanted, {}, aim), expected);
+    (expected == 0 ? none : some) += 1;
+    gridded += grid.usable() ? 1 : 0;
+  }
+  EXPECT_GT(none, 100);
+  EXPECT_GT(some, 100);
+  EXPECT_GT(gridded, 100);
+}
+
 /// All of a light, or nothing, is shown only where every single segment says so.
 TEST(PatchAims, ShowAllOfALightOrNothingOnlyWhereEverySegmentDoes) {
   Random random(2);
