@@ -22,8 +22,8 @@
 
 namespace shodo {
 
-/// Changes ambient_lx of one channel until no row asks for more than `allowed_lx` else, or it gets no better. Sums run by
-/// ascending node, so every budget gives the same bits. Leaves fluxes in disorder. A pass counts as a sweep. Errors:
+/// Changes ambient_lx of one channel until no row asks for more than `allowed_lx` else, or it gets no better. Sums run
+/// by ascending node, so every budget gives the same bits. Leaves fluxes in disorder. A pass counts as a sweep. Errors:
 /// kInterrupted.
 Status solve_slow_light(const SolverRun& run, std::uint32_t channel, double allowed_lx, Statistics& statistics);
 

@@ -54,8 +54,8 @@ void fill_median_boxes(std::span<LatticeBox> nodes, std::uint64_t items, Sort so
   }
 }
 
-/// Goes down a tree of `nodes` nodes over `items` items where enters(node) says so; visit(item) is called for those in its
-/// leaves, ascending in each, until it returns false; whether it never did.
+/// Goes down a tree of `nodes` nodes over `items` items where enters(node) says so; visit(item) is called for those in
+/// its leaves, ascending in each, until it returns false; whether it never did.
 template <class Enters, class Visit>
 [[gnu::always_inline]] inline bool walk_medians(std::size_t nodes, std::size_t items, Enters enters, Visit visit) {
   std::uint32_t stack[33];  // one waiting node a level, and the last

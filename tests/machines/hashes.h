@@ -14,16 +14,16 @@ struct Hashes {
 };
 
 inline constexpr Hashes kHashes[] = {
-    {"box", 0xe8d08d62db7c49e9, 0x709afabce5665816},
+    {"box", 0x171f136a5a5c9a8e, 0xce14a372ca261786},
     {"sun", 0x9e54c6cd4147ac22, 0x6973181985d668a5},
-    {"shapes", 0x1fabf40f0d29f4c8, 0x6e17d988c66b7633},
-    {"rules", 0x376fa97cd2d6a642, 0x17418ca946c560ca},
-    {"rule2+", 0xae6684bae61bfd1e, 0xdedb5a4448faeba8},
-    {"blocks", 0x58f188843dbe3202, 0x07808376e1412b0a},
-    {"planes", 0x8f1af93ae34d0b8b, 0x2660a48dd2bb8961},
-    {"textures", 0xcbdb3cfe3740623d, 0x19f2dd2cc93c7843},
-    {"glass", 0xe01b7882c215a4ea, 0xdc8d5e335763985b},
-    {"day", 0x6a217c5711c7adba, 0x0ce771ae36fd6fc4},
+    {"shapes", 0xd1919c69009e64eb, 0x4d0bfd0e3368ccde},
+    {"rules", 0x3065b42e817ca296, 0xf367878047500352},
+    {"rule2+", 0xf73cddada5f963fd, 0x0d729b21cffe19fa},
+    {"blocks", 0x5da372a67cbf944a, 0x29045894871129d3},
+    {"planes", 0x19b9cb31c4a677a3, 0xbb0ed19ae748e346},
+    {"textures", 0x2c70bc679a65218c, 0x28145b20e51e651c},
+    {"glass", 0x606e4804fefa1042, 0xe91376256b9c69b9},
+    {"day", 0x21483d4e7d39591e, 0x69409276995680c2},
 };
 
 }  // namespace machines
