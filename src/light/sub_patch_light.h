@@ -22,11 +22,11 @@
 //
 // Hidden samples, those inside or under something, are no part of the mean: a floor beside a cupboard is as bright as
 // its visible part. A sample that any light reaches is not hidden; only dark ones are looked at, since that takes a
-// search. A sub-patch that no light reaches is hidden if its centre is and backs lie above all corner samples; once that
-// is known no other light is asked.
+// search. A sub-patch that no light reaches is hidden if its centre is and backs lie above all corner samples; once
+// that is known no other light is asked.
 //
 // Approximate: what falls between the samples. Against 16 samples everywhere, with 1,936 to 6,400 ends of an area light
-// and 16 of a polyhedron's face, both rooms are 5.9 % (day) and 4.6 % (evening) off, as a root mean square over the mean
+// and 16 of a polyhedron's face, both rooms are 5.9 % (day) and 4.6 % (evening) off: a root mean square over the mean
 // of direct light, 5.2 % and 3.2 % outside shadow edges (as doc/report.md tells them) and 8.6 % and 8.7 % at them.
 // (Before lights were told by their flux: 7.3 and 6.5 %, 5.8 and 4.3, 11.8 and 13.1. A coarser reference flatters both:
 // with 16 x 16 ends it has the columns in common with the 32.)
