@@ -46,7 +46,7 @@ struct Options {
                                        // picture is made of illuminance maps and mean reflectances, as the paper's
   std::uint32_t width = 1280;          // pixels, 1 .. 16384
   std::uint32_t height = 1024;
-  std::uint32_t antialias = 4;         // samples a pixel: 1, 4 or 16
+  std::uint32_t antialias = 4;         // 1: a sample a pixel; 4, 16: what covers it along 2 or 4 rows
   std::string_view camera;             // empty: the first
 };
 

@@ -258,7 +258,7 @@ constexpr OptionRule kOptions[] = {
        return one_of(t, {16, 64}, a.options.row_value_bits);
      }},
     {"--size", "WxH", kForPicture, "WxH in pixels, each from 1 to 16384", "the picture's size (1280x1024)", take_size},
-    {"--antialias", "1|4|16", kForPicture, "1, 4 or 16", "samples a pixel (4)",
+    {"--antialias", "1|4|16", kForPicture, "1, 4 or 16", "1 sample a pixel, or exact edges along 2 or 4 rows (4)",
      [](std::string_view t, Arguments& a) {
        return one_of(t, {1, 4, 16}, a.options.antialias);
      }},

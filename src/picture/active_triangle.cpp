@@ -20,7 +20,7 @@ bool fits(const LinearValue& value, const SampleGrid& grid) {
          magnitude(value.cy) < kFixedLimit / grid.rows;
 }
 
-/// n.D with D = `start` at x = 0 of the row.
+/// n.D with D = `start` at x = 0 of the row; cy is to be taken 2^split times.
 struct EdgeValue {
   Int128 c;
   std::int64_t cx = 0, cy = 0;
@@ -31,13 +31,13 @@ EdgeValue edge_value(const LatticeVector& n, const SampleGrid& grid, const Latti
 }
 
 /// False if the crossing would leave 32 bits within `rows` rows.
-bool set_edge(const EdgeValue& value, std::int64_t rows, ActiveEdge& edge) {
+bool set_edge(const EdgeValue& value, unsigned split, std::int64_t rows, ActiveEdge& edge) {
   const bool lower = value.cx > 0;
   const Int128 m = lower ? -value.c : value.c;
-  const std::int64_t m_step = lower ? -value.cy : value.cy;
+  const Int128 m_step = Int128(lower ? -value.cy : value.cy) << split;
   edge.size = magnitude(value.cx);
   const std::int64_t x = ceil_divide(m, edge.size);
-  const std::int64_t x_step = ceil_divide(Int128(m_step), edge.size);
+  const std::int64_t x_step = ceil_divide(m_step, edge.size);
   if (magnitude(x) >= kCrossingLimit || magnitude(x_step) >= kCrossingLimit / rows) {
     edge = ActiveEdge();
     return false;
@@ -45,7 +45,7 @@ bool set_edge(const EdgeValue& value, std::int64_t rows, ActiveEdge& edge) {
   edge.x = static_cast<std::int32_t>(x);
   edge.x_step = static_cast<std::int32_t>(x_step);
   edge.below = static_cast<std::int64_t>((multiply(x - 1, edge.size) - m).low);
-  edge.rest_step = x_step * edge.size - m_step;
+  edge.rest_step = static_cast<std::int64_t>((multiply(x_step, edge.size) - m_step).low);
   return true;
 }
 
@@ -54,9 +54,9 @@ struct WideLinear {
   Int128 c, cx, cy;
 };
 
-WideLinear combine(const EdgeValue& e1, std::int64_t a1, const EdgeValue& e2, std::int64_t a2) {
+WideLinear combine(const EdgeValue& e1, std::int64_t a1, const EdgeValue& e2, std::int64_t a2, unsigned split) {
   return {product(e1.c, a1) + product(e2.c, a2), multiply(e1.cx, a1) + multiply(e2.cx, a2),
-          multiply(e1.cy, a1) + multiply(e2.cy, a2)};
+          (multiply(e1.cy, a1) + multiply(e2.cy, a2)) << split};
 }
 
 LinearValue fixed(const WideLinear& value, unsigned bits, std::int64_t depth) {
@@ -118,12 +118,13 @@ void activate(const DrawnTriangle& drawn, std::uint32_t triangle, const SampleGr
     if (value[k].cx < 0) add(k);
   }
   for (unsigned k = 0; k < active.edges; ++k) {
-    const bool steps = set_edge(value[side_of(active, k)], last_row - row + 1, active.edge[k]);
+    const bool steps = set_edge(value[side_of(active, k)], grid.split, last_row - row + 1, active.edge[k]);
     if (!steps) active.slow_edges = static_cast<std::uint8_t>(active.slow_edges | 1u << k);
   }
   find_span(drawn, grid, row, active);
   const EdgeValue normal = edge_value(seen.normal, grid, start);
-  active.inverse_depth = fixed({normal.c, Int128(normal.cx), Int128(normal.cy)}, kInverseDepthBits, seen.depth);
+  active.inverse_depth =
+      fixed({normal.c, Int128(normal.cx), Int128(normal.cy) << grid.split}, kInverseDepthBits, seen.depth);
   active.wide = !fits(active.inverse_depth, grid);
   if (active.wide) active.inverse_depth = LinearValue();
 }
@@ -135,8 +136,8 @@ void place_map(const DrawnTriangle& carrier, const SampleGrid& grid, std::int32_
   // The weight of a corner is the edge opposite to it: corner 1 has edge 2, corner 2 has edge 0.
   const EdgeValue first = edge_value(seen.edge[2], grid, start), second = edge_value(seen.edge[0], grid, start);
   const auto map = [&](const std::int32_t* at) {
-    return fixed(combine(first, std::int64_t{at[1]} - at[0], second, std::int64_t{at[2]} - at[0]), kMapBits - 8,
-                 seen.depth);
+    return fixed(combine(first, std::int64_t{at[1]} - at[0], second, std::int64_t{at[2]} - at[0], grid.split),
+                 kMapBits - 8, seen.depth);
   };
   active.map_u = map(carrier.u);
   active.map_v = map(carrier.v);

@@ -5,7 +5,7 @@
 // exactly, so that a line costs two additions and a look at a sign a side. Sides so flat that the quotient leaves 32
 // bits are divided anew in each line. Inverse depth and map coordinates over depth are 64-bit fixed point, sums of
 // three quotients each rounded down: at most 1 + x + rows units below the truth. What would not fit is marked `wide`
-// and left to exact integers.
+// and left to exact integers. Where columns are parts of a pixel, directions are so many times longer, all this finer.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ inline std::int64_t times(std::int64_t a, std::int32_t b) {
 /// c + x cx in one row.
 struct LinearValue {
   std::int64_t c = 0;   // at x = 0
-  std::int64_t cx = 0;  // a sample
+  std::int64_t cx = 0;  // a column
   std::int64_t cy = 0;  // a row
 
   std::int64_t at(std::int32_t x) const { return c + times(cx, x); }
@@ -113,7 +113,7 @@ inline void settle_map(const DrawnTriangle& carrier, const SampleGrid& grid, std
   active.map_row = static_cast<std::uint16_t>(row);
 }
 
-/// Map coordinates at a sample of the triangle, sub-patches 20.12, each at most 2^-12 below the truth.
+/// Map coordinates at a column of the triangle, sub-patches 20.12, each at most 2^-12 below the truth.
 struct MapPoint {
   std::int32_t u = 0, v = 0;
 };

@@ -42,7 +42,7 @@ void BackgroundPicture::start(const Scene& scene, const SampleGrid& grid, std::u
   up_ = rounded((kUnit / half_height) * cross(right, background.towards));
   towards_ = rounded(kUnit * background.towards);
   const LatticeVector middle = grid.direction(grid.columns / 2, grid.rows / 2);
-  const double texels = size_of(grid.dx) / size_of(middle) * texture.width / (2 * half_width);
+  const double texels = size_of(grid.across()) / size_of(middle) * texture.width / (2 * half_width);
   step_ = texels < 32767 ? static_cast<std::uint32_t>(65536 * texels) : 0x7fffffffu;
 }
 

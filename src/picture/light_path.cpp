@@ -127,9 +127,9 @@ MapTexels LightPaths::texels_of(const Mesh& mesh) const {
   return texels;
 }
 
-void LightPaths::trace(std::int32_t x, std::uint32_t row, std::uint32_t triangle, FineColour& sum,
+void LightPaths::trace(std::int32_t column, std::uint32_t row, std::uint32_t triangle, FineColour& sum,
                        PathRecord* record) {
-  direction_ = grid_.direction(x, row);
+  direction_ = grid_.direction(column, row);
   Path path{{grid_.eye, ray_direction(direction_)}, {kWholePart, kWholePart, kWholePart}, 0, kNoHit, false, {}, 0, 1};
   if (record != nullptr || !textures_.empty()) {
     direction_length_ = length(real(direction_));
@@ -145,7 +145,6 @@ void LightPaths::trace(std::int32_t x, std::uint32_t row, std::uint32_t triangle
     hint_[0] = first.triangle;
   }
   if (record != nullptr) {
-    record->x = x;
     record->count = 0;
     record->sought = sought;
   }
@@ -268,7 +267,7 @@ void LightPaths::add_textured(const DrawnTriangle& drawn, const RayHit& hit, con
 /// Texels to the neighbours in the row and the column, the more of them.
 double LightPaths::texture_step(const DrawnTriangle& drawn, const RayHit& hit, const Path& path,
                                 const TextureShade& shade) const {
-  Vec3 way[3] = {real(direction_), real(grid_.dx), real(grid_.dy)};
+  Vec3 way[3] = {real(direction_), real(grid_.across()), real(grid_.down())};
   for (std::uint32_t k = 0; k < path.reflections; ++k) {
     const Vec3 n = real(normal_of(geometry_->drawn[path.mirror[k]]));
     const double twice = 2 / dot(n, n);

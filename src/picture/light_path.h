@@ -57,7 +57,7 @@ struct PathHit {
 
 /// All on the way of a sample, in the order in which they are met.
 struct PathRecord {
-  std::int32_t x;
+  std::int32_t x;       // pixel
   std::uint32_t count;  // above kMostPathHits: not all are here
   bool sought;          // the first one was met by the ray, not known from the scanline
   PathHit hit[kMostPathHits];
@@ -81,8 +81,8 @@ class LightPaths {
 
   /// Whether a ray goes on from this side of it, or goes by.
   bool goes_on(const DrawnTriangle& drawn, bool front) const;
-  /// Adds what a sample shows that sees a triangle first, or nothing (kNone). `record` may be null.
-  void trace(std::int32_t x, std::uint32_t row, std::uint32_t triangle, FineColour& sum, PathRecord* record);
+  /// Adds what a sample shows that sees a triangle first, or nothing (kNone). `record`, but for its x, may be null.
+  void trace(std::int32_t column, std::uint32_t row, std::uint32_t triangle, FineColour& sum, PathRecord* record);
 
   const RayTree& tree() const { return tree_; }
   const Highlights& highlights() const { return highlights_; }

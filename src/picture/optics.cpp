@@ -127,15 +127,20 @@ void PictureOptics::add(std::uint32_t triangle, std::int32_t x0, std::int32_t x1
   triangle_ = triangle;
   row_ = row;
   sums_ = sums;
-  if (x1 - x0 < 3) {
-    for (std::int32_t x = x0; x < x1; ++x) trace(x, nullptr);
+  RunWalk runs(x0, x1, grid_.split - grid_.parts);
+  while (runs.next(run_)) add_run();
+}
+
+void PictureOptics::add_run() {
+  if (run_.x1 - run_.x0 < 3) {
+    for (std::int32_t x = run_.x0; x < run_.x1; ++x) trace(x, nullptr);
     return;
   }
   std::uint32_t left = 0;
-  trace(x0, &records_[left]);
+  trace(run_.x0, &records_[left]);
   std::int32_t reach = kLongestReach;
-  for (std::int32_t x = x0; x + 1 < x1; x = records_[left].x) {
-    const std::int32_t to = x1 - 1 - x < reach ? x1 - 1 : x + reach;
+  for (std::int32_t x = run_.x0; x + 1 < run_.x1; x = records_[left].x) {
+    const std::int32_t to = run_.x1 - 1 - x < reach ? run_.x1 - 1 : x + reach;
     const bool easy = join_up_to(to, left);
     if (easy && reach < kLongestReach) reach *= 2;
     if (!easy && reach > 4) reach /= 2;
@@ -186,12 +191,13 @@ bool PictureOptics::join_up_to(std::int32_t x, std::uint32_t& left) {
 
 void PictureOptics::trace(std::int32_t x, PathRecord* record) {
   FineColour sum = {0, 0, 0};
-  paths_.trace(x, row_, triangle_, sum, record);
+  paths_.trace(run_.column_of(x), row_, triangle_, sum, record);
+  if (record != nullptr) record->x = x;
+  std::uint32_t* const sums = &sums_[(static_cast<std::uint32_t>(x) >> grid_.parts) * scene_->channels];
   for (std::uint32_t c = 0; c < scene_->channels; ++c) {
     const std::uint64_t fine = roll_ ? rolled(sum[c] >> 16) << 16 : sum[c];
     const std::uint64_t steps = (fine + (std::uint64_t{1} << (15 + kFineBits))) >> (16 + kFineBits);
-    sums_[(static_cast<std::uint32_t>(x) >> grid_.shift) * scene_->channels + c] +=
-        steps < kWhite ? static_cast<std::uint32_t>(steps) : kWhite;
+    sums[c] += run_.first * (steps < kWhite ? static_cast<std::uint32_t>(steps) : kWhite);
   }
 }
 
@@ -307,12 +313,12 @@ void PictureOptics::fill(const PathRecord& a, const PathRecord& b) {
     }
   }
   for (std::int32_t k = 1; k < n; ++k) {
-    const std::uint32_t pixel = static_cast<std::uint32_t>(a.x + k) >> grid_.shift;
+    std::uint32_t* const sums = &sums_[(static_cast<std::uint32_t>(a.x + k) >> grid_.parts) * channels];
     for (std::uint32_t c = 0; c < channels; ++c) {
       const std::uint32_t found = fine_[static_cast<std::uint32_t>(k) * channels + c];
       const std::uint32_t fine = roll_ ? static_cast<std::uint32_t>(rolled(found)) : found;
       const std::uint32_t steps = (fine + (1u << (kFineBits - 1))) >> kFineBits;
-      sums_[pixel * channels + c] += steps < kWhite ? steps : kWhite;
+      sums[c] += run_.first * (steps < kWhite ? steps : kWhite);
     }
   }
 }
@@ -324,7 +330,7 @@ bool PictureOptics::add_outdoors(const PathRecord& a, std::uint32_t hit, const s
   const std::uint32_t channels = scene_->channels;
   for (std::int32_t k = 1; k < n; ++k) {
     std::uint32_t shown[3];
-    paths_.background(ray_direction(grid_.direction(a.x + k, row_)), shown);
+    paths_.background(ray_direction(grid_.direction(run_.column_of(a.x + k), row_)), shown);
     for (std::uint32_t c = 0; c < channels; ++c) {
       const std::uint32_t all = static_cast<std::uint32_t>(std::uint64_t{shown[c]} * part[c] >> 16);
       fine_[static_cast<std::uint32_t>(k) * channels + c] += all < kMostFine ? all : kMostFine;

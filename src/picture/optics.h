@@ -22,6 +22,7 @@
 #include "base/arena.h"
 #include "picture/display.h"
 #include "picture/light_path.h"
+#include "picture/sample_run.h"
 #include "picture/view.h"
 #include "scene/scene.h"
 #include "visibility/geometry.h"
@@ -56,7 +57,7 @@ class PictureOptics {
 
   /// Whether samples that see this side of it first are for add().
   bool takes(const DrawnTriangle& drawn, bool front) const { return paths_.goes_on(drawn, front); }
-  /// Adds samples x0 .. x1 - 1 of a row, which see a triangle first, or nothing (kNone), to their pixels' sums.
+  /// Adds columns x0 .. x1 - 1 of a row, which see a triangle first, or nothing (kNone), to their pixels' sums.
   void add(std::uint32_t triangle, std::int32_t x0, std::int32_t x1, std::uint32_t row, std::span<std::uint32_t> sums);
 
  private:
@@ -67,6 +68,7 @@ class PictureOptics {
   enum class Join : std::uint8_t { kNo, kIfMiddleAgrees, kYes };
 
   std::int32_t background_reach(const PathRecord& record, std::uint32_t k) const;
+  void add_run();
   void trace(std::int32_t x, PathRecord* record);
   std::uint64_t rolled(std::uint64_t fine) const;
   bool join_up_to(std::int32_t x, std::uint32_t& left);
@@ -91,7 +93,8 @@ class PictureOptics {
   std::span<std::uint32_t> steps_;      // display steps of one surface there
   bool roll_ = false;
   std::uint64_t black_ = 0;             // fine steps of the display's MIN
-  // The span at work.
+  // The run of samples at work.
+  SampleRun run_;
   std::uint32_t triangle_ = kNone, row_ = 0;
   std::span<std::uint32_t> sums_;
 };

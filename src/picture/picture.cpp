@@ -43,7 +43,7 @@ Status wrong_size() {
 
 SampleGrid grid_of(const Camera& camera, const Lattice& lattice, const Options& options) {
   const View view = view_of(camera, lattice, options.width, options.height);
-  return sample_grid(view, options.width, options.height, options.antialias);
+  return picture_grid(view, options.width, options.height, options.antialias);
 }
 
 /// Everything that lines are made of.
@@ -60,21 +60,22 @@ struct Picture {
   RollOff roll;                    // of what isn't rolled off in the maps
   std::span<MeshTexture> textures;  // by mesh; empty in scenes without
   std::span<std::uint8_t> level;   // sRGB of display steps
-  std::span<std::uint32_t> sums;   // [pixel * channels + channel]: display steps of a pixel's samples, if it has more
+  std::span<std::uint32_t> sums;   // [pixel * channels + channel]: display steps times columns, if pixels mix; mostly 0
   std::span<std::uint8_t> rgb;
 };
 
-/// Sums of a line of pixels: none where a sample is a pixel and shows one surface.
+/// Sums of a line of pixels: none where a pixel is one sample that shows one surface.
 std::size_t sums_of(const SampleGrid& grid, std::uint32_t width, std::uint32_t channels, bool with_optics) {
-  return grid.shift == 0 && !with_optics ? 0 : std::size_t{width} * channels;
+  return grid.split == 0 && !with_optics ? 0 : std::size_t{width} * channels;
 }
 
 bool prepare(Picture& picture, const IlluminanceMaps& maps, const Options& options, Arena& arena) {
   const Scene& scene = *picture.scene;
   if (!build_display_maps(scene, maps, arena, picture.maps)) return false;
   if (!arena.take("display table", kWhite + 1, picture.level)) return false;
-  if (!arena.take("line of samples", sums_of(picture.grid, options.width, scene.channels, picture.with_optics),
+  if (!arena.take("sums of a line", sums_of(picture.grid, options.width, scene.channels, picture.with_optics),
                   picture.sums)) return false;
+  for (std::uint32_t& sum : picture.sums) sum = 0;
   if (!arena.take("line of pixels", std::size_t{3} * options.width, picture.rgb)) return false;
   if (!find_mesh_textures(scene, arena, picture.textures)) return false;
   const Display& display = picture.display;
@@ -101,7 +102,16 @@ void show_light(const Picture& picture, const Light& light, const VisibleSpan& s
   for (std::uint32_t c = 0; c < samples.channels; ++c) {
     shown[c] = samples.roll.shown(luminance_steps(picture.scene->display, light.strength * light.colour.c[c]));
   }
-  show_plain(samples, span.x0, span.x1, shown);
+  if (!samples.to_sums) return show_plain(samples, span.x0, span.x1, shown);
+  const SampleRun run = pixels_of(span.x0, span.x1, samples.split);
+  const EndPixels ends(run, samples.channels, samples.sums);
+  show_plain(samples, run.x0, run.x1, shown);
+  ends.weigh();
+}
+
+/// Sums have nothing to add.
+void show_black(const SampleRow& samples, std::int32_t x0, std::int32_t x1) {
+  if (!samples.to_sums) show_plain(samples, x0, x1, {0, 0, 0});
 }
 
 /// Adjacent spans of one map; empty if x0 = x1.
@@ -110,6 +120,18 @@ struct MapSpan {
   std::uint32_t carrier = kNone;
   const ActiveTriangle* active = nullptr;
 };
+
+/// Whether the span's plane goes on to the middles of its first and last pixel, at more than half the inverse depth.
+bool goes_on(const MapSpan& span, const SampleRun& pixels) {
+  if (span.active->wide_map) return false;
+  const LinearValue& depth = span.active->inverse_depth;
+  return depth.at(pixels.column) > depth.at(span.x0) >> 1 &&
+         depth.at(pixels.column_of(pixels.x1 - 1)) > depth.at(span.x1 - 1) >> 1;
+}
+
+void show_map(const MapTexels& texels, MapWalk walk, const SampleRow& samples) {
+  for (MapPiece piece; walk.next(piece);) show_piece(texels, piece, samples);
+}
 
 void show_span(const Picture& picture, const MapSpan& span, std::uint32_t row, const SampleRow& samples) {
   const DrawnTriangle& carrier = picture.geometry->drawn[span.carrier];
@@ -121,27 +143,47 @@ void show_span(const Picture& picture, const MapSpan& span, std::uint32_t row, c
     return show_textured({*picture.scene, mesh, picture.textures[carrier.mesh], texels, *span.active, carrier,
                           picture.grid, static_cast<std::int32_t>(row), span.x0, span.x1}, textured);
   }
-  MapWalk walk(*span.active, carrier, picture.grid, static_cast<std::int32_t>(row), span.x0, span.x1);
-  for (MapPiece piece; walk.next(piece);) show_piece(texels, piece, samples);
+  const auto walk = [&](const SampleRun& run) {
+    return MapWalk(*span.active, carrier, picture.grid, static_cast<std::int32_t>(row), run);
+  };
+  if (!samples.to_sums) return show_map(texels, walk({span.x0, span.x1, span.x0}), samples);
+  const auto show = [&](const SampleRun& run) {
+    const EndPixels ends(run, samples.channels, samples.sums);
+    show_map(texels, walk(run), samples);
+    ends.weigh();
+  };
+  SampleRun run = pixels_of(span.x0, span.x1, samples.split);
+  if (goes_on(span, run)) return show(run);
+  RunWalk runs(span.x0, span.x1, samples.split);
+  while (runs.next(run)) show(run);
 }
 
-/// Samples x0 .. x1 - 1 see a triangle first that does more than reflect diffusely, or nothing (kNone).
-void show_optics(Picture& picture, std::uint32_t triangle, std::int32_t x0, std::int32_t x1, std::uint32_t row,
-                 const SampleRow& samples) {
-  picture.optics.add(triangle, x0, x1, row, picture.sums);
-  if (samples.shift != 0) return;
-  for (auto x = static_cast<std::uint32_t>(x0); x < static_cast<std::uint32_t>(x1); ++x) {
-    for (std::uint32_t c = 0; c < 3; ++c) {
-      samples.rgb[3 * x + c] = samples.level[samples.sums[x * samples.channels + (samples.channels == 1 ? 0 : c)]];
-    }
+/// Shows pixels' means over their rows and columns in sRGB, a grey scene's one channel three times; empties the sums.
+void show_sums(Picture& picture, std::uint32_t x0, std::uint32_t x1) {
+  const std::uint32_t channels = picture.scene->channels, next = 4 - channels;
+  const std::uint32_t bits = picture.grid.split + picture.grid.parts, half = (1u << bits) / 2;
+  std::uint8_t* rgb = &picture.rgb[3 * std::size_t{x0}];
+  for (std::uint32_t& sum : picture.sums.subspan(x0 * channels, (x1 - x0) * channels)) {
+    rgb[0] = picture.level[(sum + half) >> bits];
+    if (channels == 1) rgb[1] = rgb[2] = rgb[0];
+    rgb += next;
+    sum = 0;
   }
 }
 
-/// Adds one row of samples to the picture; nothing and backs are black.
+/// Columns x0 .. x1 - 1 see a triangle first that does more than reflect diffusely, or nothing (kNone).
+void show_optics(Picture& picture, std::uint32_t triangle, std::int32_t x0, std::int32_t x1, std::uint32_t row,
+                 const SampleRow& samples) {
+  picture.optics.add(triangle, x0, x1, row, picture.sums);
+  if (samples.to_sums) return;
+  show_sums(picture, static_cast<std::uint32_t>(x0), static_cast<std::uint32_t>(x1));
+}
+
+/// Adds one row to the picture; nothing and backs are black.
 template <bool kOptics>
 void show_row(Picture& picture, std::uint32_t row) {
-  const SampleRow samples{picture.level.data(), picture.rgb.data(), picture.sums.data(), picture.grid.shift,
-                          picture.scene->channels, kOptics ? picture.roll : RollOff{}};
+  const SampleRow samples{picture.level.data(), picture.rgb.data(), picture.sums.data(), picture.grid.split,
+                          picture.scene->channels, picture.grid.split != 0, kOptics ? picture.roll : RollOff{}};
   VisibleLines& lines = picture.lines;
   lines.begin_row(row);
   MapSpan map;
@@ -153,7 +195,7 @@ void show_row(Picture& picture, std::uint32_t row) {
     if constexpr (kOptics) {
       show_optics(picture, kNone, end, x, row, samples);
     } else {
-      show_plain(samples, end, x, {0, 0, 0});
+      show_black(samples, end, x);
     }
   };
   for (VisibleSpan span; lines.next(span);) {
@@ -164,7 +206,7 @@ void show_row(Picture& picture, std::uint32_t row) {
         empty_until(span.x0);
         end = span.x1;
         takes ? show_optics(picture, span.triangle, span.x0, span.x1, row, samples)
-              : show_plain(samples, span.x0, span.x1, {0, 0, 0});
+              : show_black(samples, span.x0, span.x1);
         continue;
       }
     }
@@ -183,18 +225,6 @@ void show_row(Picture& picture, std::uint32_t row) {
     }
   }
   empty_until(static_cast<std::int32_t>(picture.grid.columns));
-}
-
-/// The mean over each pixel's samples in sRGB; a grey scene's one channel three times.
-void finish_line(Picture& picture, std::uint32_t width) {
-  const std::uint32_t channels = picture.scene->channels, bits = 2 * picture.grid.shift;
-  const std::uint32_t half = bits == 0 ? 0 : 1u << (bits - 1);
-  for (std::uint32_t x = 0; x < width; ++x) {
-    for (std::uint32_t c = 0; c < 3; ++c) {
-      const std::uint32_t sum = picture.sums[x * channels + (channels == 1 ? 0 : c)];
-      picture.rgb[3 * x + c] = picture.level[(sum + half) >> bits];
-    }
-  }
 }
 
 Status interrupted() {
@@ -229,14 +259,13 @@ Status draw_picture(const Scene& scene, const Geometry& geometry, const Illumina
   picture.roll.black = picture.with_optics ? luminance_steps(picture.shown.display, scene.display.min_cd_m2) : 0;
   picture.grid = grid_of(*camera, geometry.lattice, options);
   if (!prepare(picture, maps, options, arena)) return arena.refused();
-  const std::uint32_t rows = 1u << picture.grid.shift;
+  const std::uint32_t rows = 1u << picture.grid.parts;
   for (std::uint32_t y = 0; y < options.height; ++y) {
     if (!progress.go_on(Stage::kPicture, y, options.height)) return interrupted();
-    for (std::uint32_t& sum : picture.sums) sum = 0;
     for (std::uint32_t row = y * rows; row < (y + 1) * rows; ++row) {
       picture.with_optics ? show_row<true>(picture, row) : show_row<false>(picture, row);
     }
-    if (picture.grid.shift != 0) finish_line(picture, options.width);
+    if (picture.grid.split != 0) show_sums(picture, 0, options.width);
     if (sink.line != nullptr && !sink.line(sink.context, y, picture.rgb)) return interrupted();
   }
   if (!progress.go_on(Stage::kPicture, options.height, options.height)) return interrupted();

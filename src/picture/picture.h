@@ -1,6 +1,7 @@
 // The picture (paper 2.4): camera, integer scanlines, shading from the illuminance maps, display values.
 //
-// view.h makes the camera integer; from there visibility is exact (visible_lines.h). Fronts of meshes show their map
+// view.h makes the camera integer; from there visibility is exact (visible_lines.h). Antialiased, a pixel shows what
+// surfaces cover along 2 or 4 rows, edges exact to 1/256 of its width (sample_run.h). Fronts of meshes show their map
 // (shade.h, display.h), fronts of area lights their luminance, backs and nothing are black; an opening has no back.
 // One line of pixels is finished at a time and handed to the sink.
 #pragma once
@@ -33,8 +34,8 @@ Status draw_picture(const Scene& scene, const Geometry& geometry, const Illumina
 ///   8193 + (4 channels + 3) width + 4 rows + 10 drawn + (sizeof(ActiveTriangle) + 16) active +
 ///   32 meshes if there are textures)
 ///
-/// rows: of samples. active: the most triangles that touch one of 128 bands of rows; one pass over all triangles
-/// finds it.
+/// rows: 1, 2 or 4 a pixel, as `antialias` is 1, 4 or 16. active: the most triangles that touch one of 128 bands of
+/// rows; one pass over all triangles finds it.
 std::uint64_t picture_bytes(const Scene& scene, const Geometry& geometry, const Options& options);
 
 }  // namespace shodo

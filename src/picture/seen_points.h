@@ -1,8 +1,9 @@
 // What every sample of a picture sees: which point of which surface (ours; for pictures that measure).
 //
-// The samples, and the triangles that they see, are those of the picture (visible_lines.h); the point on the surface is
-// exact, by integers, and costs a division or three at each sample (exact_map_point), since nothing here is in a hurry.
-// Nothing is shaded. Bytes: VisibleLines::bytes, which is less than the picture takes.
+// Samples are points, `antialias` of them a pixel; with one, they are those of the picture. The triangles that they see
+// are found as there (visible_lines.h); the point on the surface is exact, by integers, and costs a division or three
+// at each sample (exact_map_point), since nothing here is in a hurry. Nothing is shaded.
+// Bytes: VisibleLines::bytes, which is less than the picture takes.
 #pragma once
 
 #include <cstdint>

@@ -39,15 +39,17 @@ std::int32_t quotient(std::int64_t part, std::int32_t shift, std::int32_t recipr
 }  // namespace
 
 MapWalk::Point MapWalk::point(std::int32_t x) const {
+  const std::int32_t column = column_of_0_ + (x << bits_);
   if (active_->wide_map) {
-    const MapPoint exact = exact_map_point(*drawn_, *grid_, x, row_);
+    const MapPoint exact = exact_map_point(*drawn_, *grid_, column, row_);
     return {exact.u, exact.v, 1, 0};
   }
-  const std::int64_t z = active_->inverse_depth.at(x);
+  const std::int64_t z = active_->inverse_depth.at(column);
   const std::int32_t shift = 64 - 31 - leading_zeros(z);
   const std::int32_t cut = shifted(z, shift), inverse = reciprocal(static_cast<std::uint32_t>(cut));
-  return {(drawn_->u[0] << 4) + quotient(active_->map_u.at(x), shift, inverse),
-          (drawn_->v[0] << 4) + quotient(active_->map_v.at(x), shift, inverse), static_cast<std::uint32_t>(cut), shift};
+  return {(drawn_->u[0] << 4) + quotient(active_->map_u.at(column), shift, inverse),
+          (drawn_->v[0] << 4) + quotient(active_->map_v.at(column), shift, inverse), static_cast<std::uint32_t>(cut),
+          shift};
 }
 
 }  // namespace shodo

@@ -13,6 +13,7 @@
 #include <cstdint>
 
 #include "picture/active_triangle.h"
+#include "picture/sample_run.h"
 
 namespace shodo {
 
@@ -26,13 +27,14 @@ struct MapPiece {
   std::int32_t du = 0, dv = 0;  // 16.16
 };
 
-/// Cuts a span into pieces, from left to right.
+/// Cuts a run of samples into pieces, from left to right.
 class MapWalk {
  public:
   /// The triangle's values must be those of the row (settle_map).
   MapWalk(const ActiveTriangle& active, const DrawnTriangle& drawn, const SampleGrid& grid, std::int32_t row,
-          std::int32_t x0, std::int32_t x1)
-      : active_(&active), drawn_(&drawn), grid_(&grid), row_(row), x_(x0), end_(x1), start_(point(x0)) {}
+          const SampleRun& run)
+      : active_(&active), drawn_(&drawn), grid_(&grid), row_(row), x_(run.x0), end_(run.x1),
+        column_of_0_(run.column_of(0)), bits_(run.bits), start_(point(x_)) {}
 
   bool next(MapPiece& piece);
 
@@ -48,7 +50,8 @@ class MapWalk {
   const ActiveTriangle* active_;
   const DrawnTriangle* drawn_;
   const SampleGrid* grid_;
-  std::int32_t row_, x_, end_;
+  std::int32_t row_, x_, end_, column_of_0_;
+  std::uint32_t bits_;
   Point start_;  // at x_
 };
 

@@ -102,17 +102,17 @@ void show_samples(Ramp* ramp, const SampleRow& row, std::int32_t x, std::int32_t
 /// Adds samples to the sums of their pixels.
 template <std::uint32_t kChannels, Bright kBright>
 void add_samples(Ramp* ramp, const SampleRow& row, std::int32_t x, std::int32_t count) {
-  const std::uint32_t last_in_pixel = (1u << row.shift) - 1;
-  std::uint32_t* sum = row.sums + (static_cast<std::uint32_t>(x) >> row.shift) * kChannels;
-  const auto shown = [&](Ramp& of) { return limited<kBright>(of.next(), row.roll); };
+  std::uint32_t* sum = row.sums + std::ptrdiff_t{x} * kChannels;
+  const std::uint32_t* const end = sum + std::ptrdiff_t{count} * kChannels;
+  const std::uint32_t split = row.split;
+  const auto shown = [&](Ramp& of) { return limited<kBright>(of.next(), row.roll) << split; };
   Ramp first = ramp[0], second = ramp[kChannels / 2], third = ramp[kChannels - 1];
-  for (const std::int32_t end = x + count; x < end; ++x) {
+  for (; sum != end; sum += kChannels) {
     sum[0] += shown(first);
     if (kChannels == 3) {
       sum[1] += shown(second);
       sum[2] += shown(third);
     }
-    if ((static_cast<std::uint32_t>(x) & last_in_pixel) == last_in_pixel) sum += kChannels;
   }
 }
 
@@ -157,8 +157,8 @@ bool is_white(const Cell& cell, std::uint32_t channel) {
 
 template <std::uint32_t kChannels, Bright kBright>
 void show_or_add(Ramp* ramp, const SampleRow& row, std::int32_t x, std::int32_t count) {
-  row.shift == 0 ? show_samples<kChannels, kBright>(ramp, row, x, count)
-                 : add_samples<kChannels, kBright>(ramp, row, x, count);
+  row.to_sums ? add_samples<kChannels, kBright>(ramp, row, x, count)
+              : show_samples<kChannels, kBright>(ramp, row, x, count);
 }
 
 /// Where a part of the map is lighter than white, or, where that is rolled off, than half of it.
@@ -251,7 +251,7 @@ void show(const MapTexels& map, const MapPiece& piece, const SampleRow& row) {
 
 void show_plain(const SampleRow& row, std::int32_t x0, std::int32_t x1, const std::uint32_t (&steps)[3]) {
   const std::uint32_t channels = row.channels;
-  if (row.shift == 0) {
+  if (!row.to_sums) {
     const std::uint8_t first = row.level[steps[0]], second = row.level[steps[channels / 2]],
                        third = row.level[steps[channels - 1]];
     const std::uint8_t* const end = row.rgb + 3 * std::ptrdiff_t{x1};
@@ -262,9 +262,9 @@ void show_plain(const SampleRow& row, std::int32_t x0, std::int32_t x1, const st
     }
     return;
   }
+  std::uint32_t* sum = row.sums + static_cast<std::uint32_t>(x0) * channels;
   for (std::int32_t x = x0; x < x1; ++x) {
-    std::uint32_t* const sum = row.sums + (static_cast<std::uint32_t>(x) >> row.shift) * channels;
-    for (std::uint32_t c = 0; c < channels; ++c) sum[c] += steps[c];
+    for (std::uint32_t c = 0; c < channels; ++c) *sum++ += steps[c] << row.split;
   }
 }
 
@@ -282,6 +282,7 @@ void add_piece(const MapTexels& map, const MapPiece& piece, std::uint32_t* steps
   if (is_slow(piece)) {
     SampleRow row;
     row.sums = steps;
+    row.to_sums = true;
     row.channels = map.channels;
     if (map.channels == 1) return show_cells<1, Target::kSums>(map, piece, row);
     return show_cells<3, Target::kSums>(map, piece, row);

@@ -25,13 +25,14 @@ struct MapTexels {
   bool wraps_u = false;
 };
 
-/// Where a row of samples goes: with one sample a pixel to the screen at once, else to the sums of its pixels.
+/// Where a row's samples go: with one sample a pixel to the screen at once, else, 2^split times, to the sums of pixels.
 struct SampleRow {
   const std::uint8_t* level = nullptr;  // sRGB of display steps 0 .. white
   std::uint8_t* rgb = nullptr;          // 3 a pixel
   std::uint32_t* sums = nullptr;        // [pixel * channels + channel]
-  std::uint32_t shift = 0;              // 2^shift samples across a pixel; above 0: to the sums
+  std::uint32_t split = 0;
   std::uint32_t channels = 1;
+  bool to_sums = false;
   RollOff roll;                         // of maps that aren't rolled off themselves
 };
 
@@ -65,7 +66,7 @@ class PieceLookup {
   PieceAxis u_, v_;
 };
 
-/// Samples x0 <= x < x1 show the same; `steps` by channel, at most white.
+/// Pixels x0 <= x < x1 show the same; `steps` by channel, at most white.
 void show_plain(const SampleRow& row, std::int32_t x0, std::int32_t x1, const std::uint32_t (&steps)[3]);
 
 /// The samples of a piece, at most white each, or rolled off.

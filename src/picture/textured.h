@@ -29,7 +29,7 @@ struct TexturedSpan {
   const ActiveTriangle& active;  // settled for the row
   const DrawnTriangle& carrier;
   const SampleGrid& grid;
-  std::int32_t row, x0, x1;
+  std::int32_t row, x0, x1;      // columns
 };
 void show_textured(const TexturedSpan& span, const SampleRow& samples);
 

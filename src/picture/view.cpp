@@ -75,6 +75,13 @@ double direction_scale(const Vec3& forward, const Vec3& dx, const Vec3& dy, doub
 
 }  // namespace
 
+LatticeVector SampleGrid::direction(std::int64_t x, std::int64_t y) const {
+  const auto at = [&](std::int64_t c0, std::int64_t cx, std::int64_t cy) {
+    return (c0 + y * cy) * (1 << split) + x * cx;
+  };
+  return {at(d0.x, dx.x, dy.x), at(d0.y, dx.y, dy.y), at(d0.z, dx.z, dy.z)};
+}
+
 View view_of(const Camera& camera, const Lattice& lattice, std::uint32_t width, std::uint32_t height) {
   const Frame frame = frame_of(camera);
   const double w = width, h = height;
@@ -93,19 +100,44 @@ View view_of(const Camera& camera, const Lattice& lattice, std::uint32_t width, 
   return view;
 }
 
-SampleGrid sample_grid(const View& view, std::uint32_t width, std::uint32_t height, std::uint32_t antialias) {
-  SampleGrid grid;
-  grid.shift = antialias == 16 ? 2 : antialias == 4 ? 1 : 0;
-  const std::int64_t step = 8 >> grid.shift, half = step / 2;
+namespace {
+
+/// Rows a pixel, 2^n.
+constexpr std::uint32_t row_bits(std::uint32_t antialias) { return antialias == 16 ? 2 : antialias == 4 ? 1 : 0; }
+
+/// Steps of 1/8 pixel; `x` and `y`: of them, to column 0 and row 0.
+SampleGrid grid_of(const View& view, std::int64_t x, std::int64_t step_x, std::int64_t y, std::int64_t step_y) {
   const LatticeVector &dx = view.dx, &dy = view.dy;
+  SampleGrid grid;
   grid.eye = view.eye;
-  grid.d0 = {view.d0.x + half * (dx.x + dy.x), view.d0.y + half * (dx.y + dy.y), view.d0.z + half * (dx.z + dy.z)};
-  grid.dx = {step * dx.x, step * dx.y, step * dx.z};
-  grid.dy = {step * dy.x, step * dy.y, step * dy.z};
+  grid.d0 = {view.d0.x + x * dx.x + y * dy.x, view.d0.y + x * dx.y + y * dy.y, view.d0.z + x * dx.z + y * dy.z};
+  grid.dx = {step_x * dx.x, step_x * dx.y, step_x * dx.z};
+  grid.dy = {step_y * dy.x, step_y * dy.y, step_y * dy.z};
   grid.row_of = cross(grid.d0, grid.dx);
   grid.depth_of = cross(grid.dx, grid.dy);
-  grid.columns = width << grid.shift;
-  grid.rows = height << grid.shift;
+  return grid;
+}
+
+}  // namespace
+
+SampleGrid sample_grid(const View& view, std::uint32_t width, std::uint32_t height, std::uint32_t antialias) {
+  const std::uint32_t bits = row_bits(antialias);
+  const std::int64_t step = 8 >> bits;
+  SampleGrid grid = grid_of(view, step / 2, step, step / 2, step);
+  grid.columns = width << bits;
+  grid.rows = height << bits;
+  return grid;
+}
+
+SampleGrid picture_grid(const View& view, std::uint32_t width, std::uint32_t height, std::uint32_t antialias) {
+  if (antialias == 1) return sample_grid(view, width, height, 1);
+  const std::uint32_t bits = row_bits(antialias);
+  const std::int64_t step = 8 >> bits;
+  SampleGrid grid = grid_of(view, 0, 8, step / 2, step);
+  grid.split = kColumnBits;
+  grid.parts = bits;
+  grid.columns = width << kColumnBits;
+  grid.rows = height << bits;
   return grid;
 }
 

@@ -1,7 +1,8 @@
-// Which triangle every sample of a line sees (paper 2.4: hidden surfaces by scanline).
+// Which triangle every column of a line sees (paper 2.4: hidden surfaces by scanline). Columns are samples, or so much
+// narrower (view.h) that spans tell what surfaces cover.
 //
 // A triangle enters at its first row. Its sides then move from line to line by quotient and remainder (an exact
-// Bresenham with a division at the start only), which gives its span [x0, x1) of samples. Spans are swept from left to
+// Bresenham with a division at the start only), which gives its span [x0, x1) of columns. Spans are swept from left to
 // right with the list of those that are open. Inverse depths are linear along the line, and so are their differences:
 // whoever wins at both ends of an interval wins all of it. So a span that starts is compared with the nearest one, at
 // both ends of what they share; all open spans are compared where the nearest one ends or was found to be overtaken:
@@ -9,7 +10,7 @@
 //
 // Comparisons use 64-bit fixed point, inverse depth times 2^32, each at most 1 + columns + rows units below the
 // truth; where that doesn't decide, 192-bit integers do, and the stated ties (seen_triangle.h). Nothing else is
-// approximate, so each sample gets exactly the triangle that an exact ray would, and the order of `drawn` matters in
+// approximate, so each column gets exactly the triangle that an exact ray would, and the order of `drawn` matters in
 // total ties only.
 //
 // Bytes: 10 a drawn triangle, 4 a row, 16 + sizeof(ActiveTriangle) a triangle that can be active at once; that number
@@ -24,7 +25,7 @@
 
 namespace shodo {
 
-/// Samples x0 <= x < x1 of a line see `drawn[triangle]`.
+/// Columns x0 <= x < x1 of a line see `drawn[triangle]`.
 struct VisibleSpan {
   std::int32_t x0 = 0, x1 = 0;
   std::uint32_t triangle = 0;
@@ -41,7 +42,7 @@ class VisibleLines {
 
   /// Rows in order, from 0.
   void begin_row(std::uint32_t y);
-  /// The next span of the row, from left to right; false at its end. Samples between spans see nothing.
+  /// The next span of the row, from left to right; false at its end. Columns between spans see nothing.
   bool next(VisibleSpan& span);
 
   /// With all its values for this row.

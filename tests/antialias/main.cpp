@@ -1,34 +1,23 @@
-// A prototype that judges antialiasing (doc/optics.md, Antialiasing): samples against coverage of edges.
+// How far pictures are from the truth with each antialiasing (doc/optics.md, Antialiasing).
 //
 //   antialias SCENE WIDTH HEIGHT
 //
-// The picture is drawn with 16 x 16 samples a pixel; their mean is the truth. Of the same samples are made: plain means
-// of 1, 2 x 2 and 4 x 4 of them; and coverage, where a pixel's surfaces count by the samples that see them, all 16 of a
-// row as if edges were known exactly along it, in 1 to 16 rows, but each surface shows the one value that it has
-// nearest to the pixel's middle. Printed: root mean square, over all pixels and over those that more than one surface
-// shows, and the share of pixels off by more than 8 of 255 levels.
-#include <cmath>
+// The truth is the mean, in linear light, of 16 x 16 samples a pixel: a picture of one sample a pixel and 16 times the
+// size. Printed: root mean square in levels of 255, over all pixels and over those that more than one surface shows,
+// and the share of values off by more than 8 levels.
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "model.h"
-#include "picture/picture.h"
 #include "picture/visible_lines.h"
+#include "support/antialias_truth.h"
 #include "support/files.h"
 
 namespace {
 
 using namespace shodo;
-
-constexpr std::uint32_t kSub = 16;
-
-double linear(int level) {
-  const double s = level / 255.0;
-  return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-}
-double srgb(double v) { return 255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055); }
 
 struct Error {
   double squares = 0, edge_squares = 0;
@@ -40,51 +29,38 @@ struct Error {
     if (edge) edge_squares += off * off, ++edge_values;
     if (off > 8 || off < -8) ++far;
   }
-  void print(const std::string& name) const {
-    std::printf("%-34s rms %6.3f  at edges %6.3f  off by more than 8: %.3f %%\n", name.c_str(),
-                std::sqrt(squares / static_cast<double>(values)),
+  void print(std::uint32_t antialias) const {
+    std::printf("--antialias %-2u  rms at edges %6.3f  overall %6.3f  off by more than 8: %.3f %%\n", antialias,
                 std::sqrt(edge_squares / static_cast<double>(edge_values)),
+                std::sqrt(squares / static_cast<double>(values)),
                 100 * static_cast<double>(far) / static_cast<double>(values));
   }
 };
 
-struct Lines {
-  std::vector<std::vector<std::uint8_t>> rgb;
-  std::vector<std::vector<std::uint32_t>> surface;
-};
-
-/// Mean over `rows` x `columns` of the samples, evenly spread.
-double samples(const Lines& lines, std::uint32_t px, std::uint32_t count, std::uint32_t c) {
-  double sum = 0;
-  for (std::uint32_t j = 0; j < count; ++j) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const std::uint32_t y = (2 * j + 1) * kSub / (2 * count), x = px * kSub + (2 * i + 1) * kSub / (2 * count);
-      sum += linear(lines.rgb[y][3 * x + c]);
-    }
-  }
-  return sum / (count * count);
-}
-
-/// Surfaces by what they cover along `rows` rows; each by one value.
-double coverage(const Lines& lines, std::uint32_t px, std::uint32_t rows, std::uint32_t c) {
-  double sum = 0;
-  for (std::uint32_t j = 0; j < rows; ++j) {
-    const std::uint32_t y = (2 * j + 1) * kSub / (2 * rows);
-    for (std::uint32_t i = 0; i < kSub; ++i) {
-      const std::uint32_t at = lines.surface[y][px * kSub + i];
-      double best = 1e9, value = 0;
-      for (std::uint32_t b = 0; b < rows; ++b) {
-        const std::uint32_t row = (2 * b + 1) * kSub / (2 * rows);
-        for (std::uint32_t a = 0; a < kSub; ++a) {
-          if (lines.surface[row][px * kSub + a] != at) continue;
-          const double dx = a - 7.5, dy = row - 7.5, far = dx * dx + dy * dy;
-          if (far < best) best = far, value = linear(lines.rgb[row][3 * (px * kSub + a) + c]);
-        }
+/// Which pixels show more than one surface, by 16 x 16 samples each.
+std::vector<bool> edges_of(const Model& model, std::uint32_t width, std::uint32_t height, Arena& arena) {
+  const SampleGrid grid = sample_grid(view_of(model.scene.cameras[0], model.geometry.lattice, width * kTruthSamples,
+                                              height * kTruthSamples),
+                                      width * kTruthSamples, height * kTruthSamples, 1);
+  std::vector<bool> edge(std::size_t{width} * height);
+  std::vector<std::uint32_t> first(width);
+  VisibleLines lines;
+  if (!lines.start(model.scene, model.geometry, grid, arena)) std::exit(1);
+  for (std::uint32_t y = 0; y < grid.rows; ++y) {
+    std::vector<std::uint32_t> surface(grid.columns, kNone);
+    lines.begin_row(y);
+    for (VisibleSpan span; lines.next(span);) {
+      for (std::int32_t x = span.x0; x < span.x1; ++x) {
+        surface[static_cast<std::size_t>(x)] = lines.map_of(span.triangle) * 2 + span.front;
       }
-      sum += value;
+    }
+    for (std::uint32_t x = 0; x < grid.columns; ++x) {
+      const std::uint32_t pixel = x / kTruthSamples;
+      if (y % kTruthSamples == 0 && x % kTruthSamples == 0) first[pixel] = surface[x];
+      if (surface[x] != first[pixel]) edge[std::size_t{y / kTruthSamples} * width + pixel] = true;
     }
   }
-  return sum / (rows * kSub);
+  return edge;
 }
 
 }  // namespace
@@ -99,68 +75,24 @@ int main(int count, char** words) {
   if (!files.read(name, text)) return 1;
   Options options;
   options.rules.blocks = true;
-  const std::uint32_t width = static_cast<std::uint32_t>(std::atoi(words[2])),
-                      height = static_cast<std::uint32_t>(std::atoi(words[3]));
-  options.width = width * kSub;
-  options.height = height * kSub;
-  options.antialias = 1;
+  options.width = static_cast<std::uint32_t>(std::atoi(words[2]));
+  options.height = static_cast<std::uint32_t>(std::atoi(words[3]));
   std::vector<std::uint64_t> memory(std::size_t{8} << 20), scratch(std::size_t{8} << 20);
   Model* model = nullptr;
   if (!load(name, text, files.reader(), options, memory.data(), 8 * memory.size(), model).done()) return 1;
   if (!solve(*model, {}).done()) return 1;
 
+  const std::vector<double> truth = antialias_truth(*model);
   Arena arena(scratch.data(), 8 * scratch.size());
-  const Camera& camera = model->scene.cameras[0];
-  const SampleGrid grid = sample_grid(view_of(camera, model->geometry.lattice, options.width, options.height),
-                                      options.width, options.height, 1);
-  struct Work {
-    VisibleLines visible;
-    Lines lines;
-    Error error[16];
-    std::uint32_t row = 0, width = 0;
-  } work;
-  work.width = width;
-  if (!work.visible.start(model->scene, model->geometry, grid, arena)) return 1;
-  static const char* const kNames[] = {"1 sample", "2 x 2 samples", "4 x 4 samples", "coverage along 1 row",
-                                       "coverage along 2 rows", "coverage along 4 rows", "coverage along 16 rows"};
-  const LineSink sink{[](void* context, std::uint32_t, std::span<const std::uint8_t> line) {
-                        Work& w = *static_cast<Work*>(context);
-                        w.visible.begin_row(w.row++);
-                        w.lines.rgb.emplace_back(line.begin(), line.end());
-                        std::vector<std::uint32_t> surface(line.size() / 3, 0xffffffff);
-                        for (VisibleSpan span; w.visible.next(span);) {
-                          for (std::int32_t x = span.x0; x < span.x1; ++x) {
-                            surface[static_cast<std::size_t>(x)] = w.visible.map_of(span.triangle) * 2 + span.front;
-                          }
-                        }
-                        w.lines.surface.push_back(std::move(surface));
-                        if (w.lines.rgb.size() < kSub) return true;
-                        for (std::uint32_t px = 0; px < w.width; ++px) {
-                          bool edge = false;
-                          for (const auto& row : w.lines.surface) {
-                            for (std::uint32_t i = 0; i < kSub; ++i) {
-                              edge = edge || row[px * kSub + i] != w.lines.surface[0][px * kSub];
-                            }
-                          }
-                          for (std::uint32_t c = 0; c < 3; ++c) {
-                            const double truth = srgb(samples(w.lines, px, kSub, c));
-                            std::uint32_t k = 0;
-                            for (const std::uint32_t n : {1u, 2u, 4u}) {
-                              w.error[k++].add(srgb(samples(w.lines, px, n, c)) - truth, edge);
-                            }
-                            for (const std::uint32_t n : {1u, 2u, 4u, 16u}) {
-                              const double here = edge ? coverage(w.lines, px, n, c) : samples(w.lines, px, 1, c);
-                              w.error[k++].add(srgb(here) - truth, edge);
-                            }
-                          }
-                        }
-                        w.lines = {};
-                        return true;
-                      },
-                      &work};
-  if (!draw(*model, {}, sink).done()) return 1;
-  for (int k = 0; k < 7; ++k) work.error[k].print(kNames[k]);
-  std::printf("pixels at edges: %.1f %%\n",
-              100 * static_cast<double>(work.error[0].edge_values) / static_cast<double>(work.error[0].values));
+  const std::vector<bool> edge = edges_of(*model, options.width, options.height, arena);
+  std::size_t edges = 0;
+  for (const bool at : edge) edges += at ? 1 : 0;
+  std::printf("pixels at edges: %.1f %%\n", 100 * static_cast<double>(edges) / static_cast<double>(edge.size()));
+  for (const std::uint32_t antialias : {1u, 4u, 16u}) {
+    const std::vector<std::uint8_t> picture = antialiased(*model, antialias);
+    Error error;
+    for (std::size_t k = 0; k < picture.size(); ++k) error.add(picture[k] - srgb_level(truth[k]), edge[k / 3]);
+    error.print(antialias);
+  }
   return 0;
 }

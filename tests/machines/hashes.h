@@ -14,16 +14,16 @@ struct Hashes {
 };
 
 inline constexpr Hashes kHashes[] = {
-    {"box", 0x171f136a5a5c9a8e, 0xce14a372ca261786},
+    {"box", 0x171f136a5a5c9a8e, 0x94a08a7ee189b563},
     {"sun", 0x9e54c6cd4147ac22, 0x6973181985d668a5},
-    {"shapes", 0xd1919c69009e64eb, 0x4d0bfd0e3368ccde},
-    {"rules", 0x3065b42e817ca296, 0xf367878047500352},
-    {"rule2+", 0xf73cddada5f963fd, 0x0d729b21cffe19fa},
-    {"blocks", 0x5da372a67cbf944a, 0x29045894871129d3},
-    {"planes", 0x19b9cb31c4a677a3, 0xbb0ed19ae748e346},
-    {"textures", 0x2c70bc679a65218c, 0x28145b20e51e651c},
-    {"glass", 0x606e4804fefa1042, 0xe91376256b9c69b9},
-    {"day", 0x21483d4e7d39591e, 0x69409276995680c2},
+    {"shapes", 0xbe116337c4344440, 0x658bffe4443e8449},
+    {"rules", 0x38893717c94b46b8, 0x74822eaf9d05b3d3},
+    {"rule2+", 0xf73cddada5f963fd, 0xd3ae0eafa1c05f76},
+    {"blocks", 0x5da372a67cbf944a, 0xd6b4474e1e283d38},
+    {"planes", 0x19b9cb31c4a677a3, 0x5ae731ca98a7bf83},
+    {"textures", 0x2c70bc679a65218c, 0x08e3428e2656b4b5},
+    {"glass", 0x5a66a6f452d1dada, 0x3ff2e7134b37448e},
+    {"day", 0xcb003e6646715cd8, 0x1a8963a60271e7d4},
 };
 
 }  // namespace machines

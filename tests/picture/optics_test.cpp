@@ -79,7 +79,7 @@ class OpticsScene {
     Outcome outcome;
     outcome.rgb = draw();
     const View view = view_of(loaded_.scene.cameras[0], geometry_.lattice, options_.width, options_.height);
-    const SampleGrid grid = sample_grid(view, options_.width, options_.height, options_.antialias);
+    const SampleGrid grid = picture_grid(view, options_.width, options_.height, options_.antialias);
     const OpticsTwin twin(loaded_.scene, geometry_, maps_, grid);
     for (std::uint32_t y = 0; y < options_.height; ++y) {
       for (std::uint32_t x = 0; x < options_.width; ++x) {

@@ -140,8 +140,8 @@ TEST(Picture, BacksAndNothingAreBlack) {
   for (const std::uint8_t c : scene.draw(scene.options)) EXPECT_EQ(c, 0);
 }
 
-// The mean of the twin's samples in display steps, before sRGB; dark levels are 2.5 steps each, so rounding shows.
-TEST(Picture, AntialiasingIsTheMeanOfSamples) {
+// The mean of the twin's columns in display steps, before sRGB; dark levels are 2.5 steps each, so rounding shows.
+TEST(Picture, AntialiasingIsTheMeanOfColumns) {
   DrawnScene scene;
   scene.quad({-300, -500, 0}, {200, -500, 40}, {150, 400, 0}, {-350, 400, 0});
   scene.scene.display = {0, 100};
@@ -155,9 +155,9 @@ TEST(Picture, AntialiasingIsTheMeanOfSamples) {
   const View view = view_of(scene.cameras[0], Lattice{1}, 40, 30);
   for (const std::uint32_t antialias : {1u, 4u, 16u}) {
     options.antialias = antialias;
-    const SampleGrid grid = sample_grid(view, 40, 30, antialias);
+    const SampleGrid grid = picture_grid(view, 40, 30, antialias);
     const std::vector<TwinHit> seen = scene.twin(grid);
-    const std::uint32_t across = 1u << grid.shift;
+    const std::uint32_t columns = 1u << grid.split, rows = 1u << grid.parts, whole = rows * columns;
     for (const float lx : {1.0f, 2.0f, 2.5f, 3.0f, 5.0f, 200.0f}) {
       scene.direct_lx[0] = lx;
       const std::uint32_t shown = luminance_steps(scene.scene.display, 0.5 * static_cast<double>(lx) / M_PI);
@@ -165,13 +165,13 @@ TEST(Picture, AntialiasingIsTheMeanOfSamples) {
       std::uint32_t mixed = 0;
       for (std::uint32_t y = 0; y < 30; ++y) {
         for (std::uint32_t x = 0; x < 40; ++x) {
-          std::uint32_t sum = 0;
-          for (std::uint32_t k = 0; k < antialias; ++k) {
-            const TwinHit& hit = seen[(y * across + k / across) * grid.columns + x * across + k % across];
-            if (hit.triangle != kNone && hit.front) sum += shown;
+          std::uint32_t covered = 0;
+          for (std::uint32_t k = 0; k < whole; ++k) {
+            const TwinHit& hit = seen[(y * rows + k / columns) * grid.columns + x * columns + k % columns];
+            covered += hit.triangle != kNone && hit.front ? 1 : 0;
           }
-          mixed += sum > 0 && sum < antialias * shown ? 1 : 0;
-          EXPECT_EQ(rgb[(y * 40 + x) * 3], level[(sum + antialias / 2) / antialias]);
+          mixed += covered > 0 && covered < whole ? 1 : 0;
+          EXPECT_EQ(rgb[(y * 40 + x) * 3], level[(covered * shown + whole / 2) / whole]);
         }
       }
       EXPECT_EQ(mixed > 10, antialias > 1);

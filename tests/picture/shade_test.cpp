@@ -28,7 +28,7 @@ Worst worst_coordinates(DrawnScene& scene, const SampleGrid& grid) {
     lines.begin_row(y);
     for (VisibleSpan span; lines.next(span);) {
       MapWalk walk(lines.active(span.active), scene.drawn[lines.map_of(span.triangle)], grid,
-                   static_cast<std::int32_t>(y), span.x0, span.x1);
+                   static_cast<std::int32_t>(y), {span.x0, span.x1, span.x0});
       std::int32_t x = span.x0;
       for (MapPiece piece; walk.next(piece); ++worst.pieces) {
         EXPECT_EQ(piece.x, x);

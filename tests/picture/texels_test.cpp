@@ -39,21 +39,14 @@ struct TestMap {
   MapTexels texels;
 };
 
-/// The display steps of a piece's samples, by channel: sums of two a pixel, of ever longer pieces whose last sample is
-/// the first of its pixel.
+/// The display steps of a piece's samples, by channel: those of a piece at x = 0, added to nothing.
 std::vector<std::uint32_t> steps_of(const TestMap& map, const MapPiece& piece) {
   const std::uint32_t channels = map.texels.channels;
-  std::vector<std::uint32_t> all;
-  for (std::int32_t k = 0; k < piece.length; ++k) {
-    std::vector<std::uint32_t> sums(static_cast<std::size_t>(piece.length + 1) * channels);
-    MapPiece until = piece;
-    until.x = k % 2;
-    until.length = k + 1;
-    show_piece(map.texels, until, {nullptr, nullptr, sums.data(), 1, channels, {}});
-    const std::size_t pixel = static_cast<std::size_t>(until.x + k) / 2;
-    for (std::uint32_t c = 0; c < channels; ++c) all.push_back(sums[pixel * channels + c]);
-  }
-  return all;
+  std::vector<std::uint32_t> sums(static_cast<std::size_t>(piece.length) * channels);
+  MapPiece first = piece;
+  first.x = 0;
+  show_piece(map.texels, first, {nullptr, nullptr, sums.data(), 0, channels, true, {}});
+  return sums;
 }
 
 std::vector<MapPiece> some_pieces(std::mt19937& random, std::int32_t most_step) {
@@ -107,7 +100,7 @@ TEST(ShowPiece, IsExactInTheMiddlesOfTexels) {
   }
 }
 
-// To the screen at once, and in sums of 1, 2 or 4 samples across a pixel, the same samples are shown.
+// To the screen at once, and in sums, 2^split times each, the same samples are shown.
 TEST(ShowPiece, ShowsTheSameStepsAtOnceAndInSums) {
   std::mt19937 random(8);
   std::vector<std::uint8_t> level(kWhite + 1);
@@ -118,19 +111,19 @@ TEST(ShowPiece, ShowsTheSameStepsAtOnceAndInSums) {
       piece.x = 6;
       const std::vector<std::uint32_t> steps = steps_of(map, piece);
       std::vector<std::uint8_t> rgb(3 * 140, 77), expected = rgb;
-      show_piece(map.texels, piece, {level.data(), rgb.data(), nullptr, 0, channels, {}});
+      show_piece(map.texels, piece, {level.data(), rgb.data(), nullptr, 0, channels, false, {}});
       for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(piece.length); ++k) {
         for (std::uint32_t c = 0; c < 3; ++c) {
           expected[3 * (6 + k) + c] = level[steps[k * channels + (channels == 1 ? 0 : c)]];
         }
       }
       EXPECT_EQ(rgb, expected);
-      for (const std::uint32_t shift : {1u, 2u}) {
+      for (const std::uint32_t split : {0u, 8u}) {
         std::vector<std::uint32_t> sums(140 * channels, 5), added = sums;
-        show_piece(map.texels, piece, {level.data(), nullptr, sums.data(), shift, channels, {}});
+        show_piece(map.texels, piece, {level.data(), nullptr, sums.data(), split, channels, true, {}});
         for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(piece.length); ++k) {
           for (std::uint32_t c = 0; c < channels; ++c) {
-            added[((6 + k) >> shift) * channels + c] += steps[k * channels + c];
+            added[(6 + k) * channels + c] += steps[k * channels + c] << split;
           }
         }
         EXPECT_EQ(sums, added);

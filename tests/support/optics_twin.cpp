@@ -210,12 +210,17 @@ Colour OpticsTwin::highlight(const Optics& optics, const Point& at, const Point&
   return sum;
 }
 
+/// Openings, from behind, and from both sides if what stands outside is to be seen.
+bool OpticsTwin::is_gone_by(const Hit& hit) const {
+  const DrawnTriangle& drawn = geometry_.drawn[hit.triangle->index];
+  return drawn.mesh == kNone && scene_.lights[drawn.light].open && (!hit.front || !scene_.background.empty());
+}
+
 Colour OpticsTwin::trace(const Rays& rays, int depth) const {
   const Point &from = rays.from[0], &way = rays.way[0];
   Colour sum{0, 0, 0}, part{1, 1, 1};
   for (const Hit& hit : hits(from, way, std::numeric_limits<double>::infinity())) {
-    const DrawnTriangle& drawn = geometry_.drawn[hit.triangle->index];
-    if (drawn.mesh == kNone && scene_.lights[drawn.light].open && (!hit.front || !scene_.background.empty())) continue;
+    if (is_gone_by(hit)) continue;
     const Optics* const optics = optics_of(*hit.triangle);
     Colour here{0, 0, 0};
     if (hit.front) here = surface(hit, rays);
@@ -249,12 +254,13 @@ Colour OpticsTwin::trace(const Rays& rays, int depth) const {
   return sum;
 }
 
-Colour OpticsTwin::luminance(double x, double y) const {
+OpticsTwin::Rays OpticsTwin::rays_at(double x, double y) const {
   const auto& g = grid_;
   const double step = 1 / geometry_.lattice.steps_per_unit;
   Rays rays;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double at_x = k == 1 ? x + 1e-3 : x, at_y = k == 2 ? y + 1e-3 : y;
+    const double at_x = std::ldexp(x, -static_cast<int>(g.split)) +
+                        (k == 1 ? std::ldexp(1e-3, -static_cast<int>(g.parts)) : 0), at_y = k == 2 ? y + 1e-3 : y;
     const auto way = [&](std::int64_t d0, std::int64_t dx, std::int64_t dy) {
       return static_cast<double>(d0) + at_x * static_cast<double>(dx) + at_y * static_cast<double>(dy);
     };
@@ -262,21 +268,60 @@ Colour OpticsTwin::luminance(double x, double y) const {
     rays.way[k] =
         unit({way(g.d0.x, g.dx.x, g.dy.x), way(g.d0.y, g.dx.y, g.dy.y), way(g.d0.z, g.dx.z, g.dy.z)});
   }
-  return trace(rays, 8);
+  return rays;
+}
+
+/// What is seen there first, and from which side.
+std::pair<std::uint32_t, bool> OpticsTwin::first(double x, double y) const {
+  const Rays rays = rays_at(x, y);
+  for (const Hit& hit : hits(rays.from[0], rays.way[0], std::numeric_limits<double>::infinity())) {
+    if (!is_gone_by(hit)) return {hit.triangle->index, hit.front};
+  }
+  return {kNone, false};
+}
+
+/// Adds what part of a row shows: each piece of a surface by the value in its middle. Pieces end between two of nine
+/// places that see different things, and are found by halving.
+void OpticsTwin::add_part(double x0, double x1, double y, double weight, Colour& mean) const {
+  std::vector<double> ends{x0};
+  for (int k = 0; k < 8; ++k) {
+    double low = x0 + (x1 - x0) * k / 8, high = x0 + (x1 - x0) * (k + 1) / 8;
+    const auto at_low = first(low, y);
+    if (at_low == first(high, y)) continue;
+    for (int turn = 0; turn < 20; ++turn) {
+      const double middle = (low + high) / 2;
+      (first(middle, y) == at_low ? low : high) = middle;
+    }
+    ends.push_back(high);
+  }
+  ends.push_back(x1);
+  for (std::size_t k = 1; k < ends.size(); ++k) {
+    add_shown(luminance((ends[k - 1] + ends[k]) / 2, y), weight * (ends[k] - ends[k - 1]) / (x1 - x0), mean);
+  }
+}
+
+void OpticsTwin::add_shown(const Colour& sample, double weight, Colour& mean) const {
+  const Display& display = scene_.display;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double range = display.max_cd_m2 - display.min_cd_m2, v = (sample[c] - display.min_cd_m2) / range;
+    const double shown = display.roll && v > 0.5 ? display.min_cd_m2 + range * (1 - 0.25 / v) : sample[c];
+    mean[c] += weight * std::min(shown, display.max_cd_m2);
+  }
 }
 
 std::array<int, 3> OpticsTwin::level(std::uint32_t px, std::uint32_t py, double dx, double dy) const {
-  const std::uint32_t across = 1u << grid_.shift;
+  const std::uint32_t across = 1u << grid_.parts;
+  const double width = 1u << (grid_.split - grid_.parts);
   const Display& display = scene_.display;
   std::array<int, 3> level{};
   Colour mean{0, 0, 0};
   for (std::uint32_t j = 0; j < across; ++j) {
     for (std::uint32_t i = 0; i < across; ++i) {
-      const Colour sample = luminance(px * across + i + dx, py * across + j + dy);
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double range = display.max_cd_m2 - display.min_cd_m2, v = (sample[c] - display.min_cd_m2) / range;
-        const double shown = display.roll && v > 0.5 ? display.min_cd_m2 + range * (1 - 0.25 / v) : sample[c];
-        mean[c] += std::min(shown, display.max_cd_m2) / (across * across);
+      const double x = width * (px * across + i + dx), y = py * across + j + dy;
+      if (grid_.split == 0) {
+        add_shown(luminance(x, y), 1, mean);
+      } else {
+        add_part(x, x + width, y, 1.0 / (across * across), mean);
       }
     }
   }

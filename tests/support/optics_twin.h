@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "map/illuminance_map.h"
@@ -22,9 +23,10 @@ class OpticsTwin {
 
   OpticsTwin(const Scene& scene, const Geometry& geometry, const IlluminanceMaps& maps, const SampleGrid& grid);
 
-  /// Luminance at a place of the sample grid, whole numbers for samples.
-  Colour luminance(double x, double y) const;
-  /// Of a pixel: the mean of its samples, none above white, as 8-bit sRGB; the samples moved by so many of them.
+  /// Luminance at a place of the grid: column and row.
+  Colour luminance(double x, double y) const { return trace(rays_at(x, y), 8); }
+  /// Of a pixel, as 8-bit sRGB: its sample, or the mean of the surfaces along its rows by what they cover, each shaded in
+  /// the middle of every half or quarter of a pixel; none above white. Moved by so many samples, or parts of a pixel.
   std::array<int, 3> level(std::uint32_t px, std::uint32_t py, double dx = 0, double dy = 0) const;
 
   int light_points = 2000;  // of an area light
@@ -45,6 +47,11 @@ class OpticsTwin {
     Point from[3], way[3];
   };
 
+  Rays rays_at(double x, double y) const;
+  std::pair<std::uint32_t, bool> first(double x, double y) const;
+  bool is_gone_by(const Hit& hit) const;
+  void add_part(double x0, double x1, double y, double weight, Colour& mean) const;
+  void add_shown(const Colour& sample, double weight, Colour& mean) const;
   std::vector<Hit> hits(const Point& from, const Point& way, double end) const;
   Colour trace(const Rays& rays, int depth) const;
   Colour surface(const Hit& hit, const Rays& rays) const;

@@ -36,7 +36,9 @@ PictureTwin::Wide PictureTwin::dot(const Vector& a, const Vector& b) {
 
 PictureTwin::Vector PictureTwin::direction(std::int64_t x, std::int64_t y) const {
   const auto& g = grid_;
-  return {g.d0.x + x * g.dx.x + y * g.dy.x, g.d0.y + x * g.dx.y + y * g.dy.y, g.d0.z + x * g.dx.z + y * g.dy.z};
+  const std::int64_t n = std::int64_t{1} << g.split;
+  return {n * (g.d0.x + y * g.dy.x) + x * g.dx.x, n * (g.d0.y + y * g.dy.y) + x * g.dx.y,
+          n * (g.d0.z + y * g.dy.z) + x * g.dx.z};
 }
 
 PictureTwin::PictureTwin(const Scene& scene, const Geometry& geometry, const SampleGrid& grid)
