@@ -30,7 +30,8 @@ bool split(DirectionPolygon& polygon, const Vec3& side, DirectionPolygon& outsid
     if (!(a >= 0 ? polygon : outside).push(here)) return false;
     if ((a >= 0) != (b >= 0)) {
       const double low = a < b ? a : b, high = a < b ? b : a;
-      const Vec3 crossing = high * (a < b ? here : next) + (-low) * (a < b ? next : here);
+      const double share = high / (high - low);  // within 0 .. 1, so that corners keep their size
+      const Vec3 crossing = share * (a < b ? here : next) + (1 - share) * (a < b ? next : here);
       if (!outside.push(crossing) || !polygon.push(crossing)) return false;
     }
     here = next;

@@ -36,6 +36,19 @@ LatticePoint end_at(const Lattice& lattice, const Piece& face, const Vec3& point
   return p;
 }
 
+/// The square of the least distance between a box and that around a triangle, lattice steps.
+double gap_squared(const LatticeBox& box, const DrawnTriangle& triangle) {
+  LatticeBox around;
+  for (const LatticePoint& p : triangle.vertex) around.include(p);
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    const std::int32_t above = around.low[k] - box.high[k], below = box.low[k] - around.high[k];
+    const double gap = above > below ? above : below;
+    if (gap > 0) sum += gap * gap;
+  }
+  return sum;
+}
+
 /// The luminance of the brightest lamp, in any channel.
 double brightest(const Scene& scene) {
   double most = 0;
@@ -157,7 +170,13 @@ bool Highlights::lamp_even(const Lamp& lamp, const HighlightLook& a, const Highl
   from.include(b.from);
   NearTriangles near;
   sight_.find_near(lamp, *a.surface, from, seen, ~seen, near);
-  return near.count == 0;
+  if (!near.all()) return false;
+  const double apart = length(b.point - a.point) * geometry_->lattice.steps_per_unit;
+  const double width = a.lobe.width < kEvenWidth ? a.lobe.width : kEvenWidth, least = 4 * apart / width;
+  for (std::uint32_t k = 0; k < near.count; ++k) {
+    if (!(gap_squared(from, geometry_->drawn[near.triangle[k]]) >= least * least)) return false;
+  }
+  return true;
 }
 
 /// The lobe in the direction of a vector; 0 where it has ended.

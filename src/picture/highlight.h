@@ -43,8 +43,9 @@ class Highlights {
   static std::uint64_t bytes(const Scene& scene);
 
   /// Whether highlights at points between two of a plane go on as between two lobes of neighbours: nothing comes
-  /// between them and a light that they show, which is 8 times as far away as they are apart, and they are seen
-  /// mirrored within a quarter of a lobe's width.
+  /// between them and a point light or sun that they show; a light is 8 times as far away as they are apart; what may
+  /// come between them and a lamp is so far away that from one to the other it moves by a quarter of a lobe's width
+  /// at most, and so does the mirrored direction of view.
   bool even(std::uint32_t optics, const HighlightView& a, const HighlightView& b) const;
 
   /// Adds the luminance of a material's highlight, cd/m2.

@@ -20,7 +20,7 @@ struct HighlightLook {
   const DrawnTriangle* surface;
 };
 
-inline constexpr std::uint32_t kMostNear = 64;
+inline constexpr std::uint32_t kMostNear = 160;
 
 /// All triangles that may stand between a point and a lamp.
 struct NearTriangles {

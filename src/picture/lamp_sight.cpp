@@ -6,6 +6,8 @@ namespace shodo {
 
 namespace {
 
+constexpr double kLeastPiece = 0x1p-24;  // of the whole: what is smaller is left out
+constexpr double kPoint = 1e-12;         // of the square of an angle
 constexpr std::int32_t kMargin = 4;  // lattice steps by which corners on the lattice are off the file's
 
 /// The hull of two boxes, against triangles too.
@@ -23,14 +25,30 @@ struct Hull {
 
 /// The directions in which a triangle stands in the way: those with side[k].u > 0 for all k.
 struct LampSight::Screen {
+  Vec3 corner[3];
   Vec3 side[4];
   std::uint32_t count = 0;
+
+  /// Whether a side of one has all of the other beyond it.
+  bool is_beside(const DirectionPolygon& polygon) const {
+    for (std::uint32_t k = 0; k < count; ++k) {
+      if (beyond(polygon, side[k])) return true;
+    }
+    for (std::uint32_t k = 0; k < polygon.count; ++k) {
+      const Vec3 &a = polygon.corner[k], &b = polygon.corner[k + 1 < polygon.count ? k + 1 : 0], inner = cross(a, b);
+      if (dot(inner, corner[0]) > 0 || dot(inner, corner[1]) > 0 || dot(inner, corner[2]) > 0) continue;
+      // The plane of an edge that is nearly a point, as cuts leave them, is mere rounding.
+      if (length_squared(inner) > kPoint * (length_squared(a) * length_squared(b))) return true;
+    }
+    return false;
+  }
 };
 
 struct LampSight::Work {
   const HighlightLook& look;
   const NearTriangles& near;
   const LampFace* face;  // null: all triangles are before the lamp
+  double least_size;     // of a piece
 };
 
 bool LampSight::start(const Scene& scene, const Geometry& geometry, const RayTree& tree, const Lamps& lamps,
@@ -39,7 +57,7 @@ bool LampSight::start(const Scene& scene, const Geometry& geometry, const RayTre
   geometry_ = &geometry;
   tree_ = &tree;
   lamps_ = &lamps;
-  return lamps.lamps().empty() || arena.take("pieces of lamps", kMostDepth, pieces_);
+  return lamps.lamps().empty() || arena.take("pieces of lamps", kMostPieces, pieces_);
 }
 
 bool LampSight::passes_by(std::uint32_t t, const DrawnTriangle& surface) const {
@@ -116,7 +134,7 @@ bool LampSight::screen_of(std::uint32_t t, const Work& work, Screen& screen) con
   const std::int64_t side = side_of(drawn, work.look.from);
   if (side == 0) return false;  // from its edge
   const double step = geometry_->lattice.step(), sign = side > 0 ? -1 : 1;
-  Vec3 v[3];
+  Vec3(&v)[3] = screen.corner;
   for (std::size_t k = 0; k < 3; ++k) {
     const LatticeVector way = drawn.vertex[k] - work.look.from;
     v[k] = {step * static_cast<double>(way.x), step * static_cast<double>(way.y), step * static_cast<double>(way.z)};
@@ -140,45 +158,81 @@ bool LampSight::screen_of(std::uint32_t t, const Work& work, Screen& screen) con
   return true;
 }
 
-/// From piece `depth` on, which near triangles up to `next` have been cut off. At most kMostDepth deep.
-bool LampSight::add_seen(std::uint32_t depth, std::uint32_t next, const double (&part)[3], const Work& work,
-                         double (&sum)[3]) const {
-  DirectionPolygon& here = pieces_[depth];
-  double left[3] = {part[0], part[1], part[2]};
-  for (; next < work.near.count; ++next) {
-    Screen screen;
-    if (!screen_of(work.near.triangle[next], work, screen)) continue;
-    bool beside = false;
-    for (std::uint32_t k = 0; k < screen.count && !beside; ++k) beside = beyond(here, screen.side[k]);
-    if (beside) continue;
-    if (depth + 1 == kMostDepth) return false;
-    for (std::uint32_t k = 0; k < screen.count; ++k) {
-      DirectionPolygon& outside = pieces_[depth + 1];
-      if (!split(here, screen.side[k], outside)) return false;
-      if (outside.count > 0 && !add_seen(depth + 1, next + 1, left, work, sum)) return false;
-    }
-    if (!weaken(work.near.triangle[next], left)) return true;
+/// The next triangle that cuts a piece; false if nothing does any more.
+bool LampSight::find_cut(const Work& work, Part& piece, Screen& screen) const {
+  for (; piece.next < work.near.count; ++piece.next) {
+    if (screen_of(work.near.triangle[piece.next], work, screen) && !screen.is_beside(piece.polygon)) return true;
   }
-  const HighlightLook& look = work.look;
-  const double shown = lobe_over(look.lobe, look.mirrored, look.normal, here);
-  for (std::uint32_t c = 0; c < 3; ++c) sum[c] += left[c] * shown;
+  return false;
+}
+
+/// Puts what a screen leaves of the last piece in its place, the largest part first; `count` follows. False if there is
+/// no room.
+bool LampSight::cut(const Screen& screen, const Work& work, std::uint32_t& count) const {
+  const std::uint32_t first = count - 1;
+  Part& here = pieces_[first];
+  double behind[3] = {here.light[0], here.light[1], here.light[2]};
+  const bool opaque = !weaken(work.near.triangle[here.next++], behind);
+  for (std::uint32_t k = 0; k < screen.count; ++k) {
+    if (count == kMostPieces) return false;
+    Part& outside = pieces_[count];
+    // Of what is opaque only the outside of the last side is left.
+    const bool last = opaque && k + 1 == screen.count;
+    if (!split(here.polygon, last ? -screen.side[k] : screen.side[k], outside.polygon)) return false;
+    if (last) break;
+    outside.next = here.next;
+    for (std::uint32_t c = 0; c < 3; ++c) outside.light[c] = here.light[c];
+    if (measure(outside) > work.least_size) ++count;
+  }
+  for (std::uint32_t c = 0; c < 3 && !opaque; ++c) here.light[c] = behind[c];
+  if (!(measure(here) > work.least_size)) here = pieces_[--count];
+  for (std::uint32_t k = first + 1; k < count; ++k) {
+    for (std::uint32_t at = k; at > first && pieces_[at].size > pieces_[at - 1].size; --at) {
+      const Part other = pieces_[at];
+      pieces_[at] = pieces_[at - 1];
+      pieces_[at - 1] = other;
+    }
+  }
   return true;
 }
 
-/// Of pieces_[0], which the surface's plane may cut.
-bool LampSight::add_polygon(const Work& work, double (&sum)[3]) const {
-  if (!split(pieces_[0], work.look.normal, pieces_[1])) return false;
-  if (pieces_[0].count < 3) return true;
-  const double whole[3] = {1, 1, 1};
+/// The square of twice the area of what it is a piece of.
+double LampSight::measure(Part& piece) {
+  Vec3 sum;
+  for (std::uint32_t k = 0; k < piece.polygon.count; ++k) {
+    sum = sum + cross(piece.polygon.corner[k], piece.polygon.corner[k + 1 < piece.polygon.count ? k + 1 : 0]);
+  }
+  return piece.size = length_squared(sum);
+}
+
+/// Of the polygon of pieces_[0], which the surface's plane may cut.
+bool LampSight::add_polygon(Work work, double (&sum)[3]) const {
+  Part& whole = pieces_[0];
+  if (!split(whole.polygon, work.look.normal, pieces_[1].polygon)) return false;
+  if (whole.polygon.count < 3) return true;
+  for (double& light : whole.light) light = 1;
+  whole.next = 0;
+  work.least_size = kLeastPiece * kLeastPiece * measure(whole);
   double seen[3] = {0, 0, 0};
-  if (!add_seen(0, 0, whole, work, seen)) return false;
+  const HighlightLook& look = work.look;
+  for (std::uint32_t count = 1; count > 0;) {
+    Part& last = pieces_[count - 1];
+    Screen screen;
+    if (find_cut(work, last, screen)) {
+      if (!cut(screen, work, count)) return false;
+      continue;
+    }
+    const double shown = lobe_over(look.lobe, look.mirrored, look.normal, last.polygon);
+    for (std::uint32_t c = 0; c < 3; ++c) seen[c] += last.light[c] * shown;
+    --count;
+  }
   for (std::uint32_t c = 0; c < 3; ++c) sum[c] += seen[c];
   return true;
 }
 
 bool LampSight::add_outline(const Lamp& lamp, const HighlightLook& look, Lamps::FaceSet seen,
                             const NearTriangles& near, double (&sum)[3]) const {
-  return lamps_->outline(lamp, seen, look.point, pieces_[0]) && add_polygon({look, near, nullptr}, sum);
+  return lamps_->outline(lamp, seen, look.point, pieces_[0].polygon) && add_polygon({look, near, nullptr, 0}, sum);
 }
 
 bool LampSight::add_face(const Lamp& lamp, const LampFace& face, const HighlightLook& look, const NearTriangles& near,
@@ -187,12 +241,12 @@ bool LampSight::add_face(const Lamp& lamp, const LampFace& face, const Highlight
   double all[3] = {0, 0, 0};
   for (std::uint32_t k = 0; k < 2; ++k) {
     const PiecePart part = piece_part(piece, k);
-    pieces_[0].count = 0;
+    pieces_[0].polygon.count = 0;
     // From its front it goes counter-clockwise, from the point clockwise.
     for (std::uint32_t c = part.corners; c-- > 0;) {
-      if (!pieces_[0].push(part.corner[c] - look.point)) return false;
+      if (!pieces_[0].polygon.push(part.corner[c] - look.point)) return false;
     }
-    if (part.corners != 0 && !add_polygon({look, near, &face}, all)) return false;
+    if (part.corners != 0 && !add_polygon({look, near, &face, 0}, all)) return false;
   }
   for (std::uint32_t c = 0; c < 3; ++c) sum[c] += all[c];
   return true;

@@ -39,15 +39,24 @@ struct EdgeSums {
   }
 };
 
+/// An edge and its plane.
+struct Edge {
+  const Vec3 &a, &b;
+  Vec3 m;
+  double d = 0, size;  // size: |a x b| squared
+
+  Edge(const Vec3& from, const Vec3& to, const Vec3& r) : a(from), b(to), m(cross(from, to)), size(length_squared(m)) {
+    if (!(size > 0)) return;
+    m = (1 / square_root(size)) * m;
+    d = dot(m, r);
+  }
+};
+
 /// What an edge adds to (n + 2) M.
-double edge_part(const Lobe& lobe, const Vec3& r, const Vec3& normal, const Vec3& a, const Vec3& b) {
-  const Vec3 across = cross(a, b);
-  const double size = length_squared(across);
-  if (!(size > 0)) return 0;
-  const Vec3 m = (1 / square_root(size)) * across;
-  const double d = dot(m, r);
-  const double nearest = 1 - d * d, end = lobe.ends * lobe.ends, at_a = dot(a, r), at_b = dot(b, r);
-  if (!(nearest > end) || (!(at_a > 0) && !(at_b > 0))) return 0;
+double edge_part(const Lobe& lobe, const Vec3& r, const Vec3& normal, const Edge& edge) {
+  const Vec3 &m = edge.m, &a = edge.a, &b = edge.b;
+  const double d = edge.d, nearest = 1 - d * d, end = lobe.ends * lobe.ends, at_a = dot(a, r), at_b = dot(b, r);
+  if (!(edge.size > 0) || !(nearest > end) || (!(at_a > 0) && !(at_b > 0))) return 0;
   const Vec3 along = cross(m, r);
   double to = square_root(nearest / end - 1), from = -to;
   if (at_a > 0 && dot(a, along) > from * at_a) from = dot(a, along) / at_a;
@@ -65,9 +74,10 @@ double edge_part(const Lobe& lobe, const Vec3& r, const Vec3& normal, const Vec3
   return lobe.raised(nearest) * (dot(normal, m) * sums.i - dot(normal, r) * j);
 }
 
-/// Whether r lies in a polygon: how often its sides, one after the other, go round it, by where they cross half of a
-/// plane through r. Only signs count, and each corner's are the same for both of its edges, so slivers that cuts
-/// leave, whose edges have directions of mere rounding, are not mistaken for what lies around r.
+/// How often the edges of a polygon, one after the other, go round r, by where they cross half of a plane through it.
+/// Each corner is on one side of the plane, the same for both of its edges; on which half an edge crosses, d tells, so
+/// that this and J change together. The plane of an edge that is nearly a point, as cuts leave them, is mere
+/// rounding: then the point where it crosses tells.
 class Winding {
  public:
   explicit Winding(const Vec3& r) {
@@ -75,22 +85,20 @@ class Winding {
     x_ = cross(r, x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1});
     y_ = cross(r, x_);
   }
-  bool holds(const DirectionPolygon& polygon) const {
-    int turns = 0;
-    const Vec3& last = polygon.corner[polygon.count - 1];
-    double x = dot(x_, last), y = dot(y_, last);
-    for (std::uint32_t k = 0; k < polygon.count; ++k) {
-      const double next_x = dot(x_, polygon.corner[k]), next_y = dot(y_, polygon.corner[k]);
-      if (y < 0 && next_y >= 0) turns += next_y * x - y * next_x > 0 ? 1 : 0;
-      if (y >= 0 && next_y < 0) turns -= y * next_x - next_y * x > 0 ? 1 : 0;
-      x = next_x;
-      y = next_y;
-    }
-    return turns > 0;
+  void add(const Edge& edge) {
+    const double a = dot(y_, edge.a), b = dot(y_, edge.b);
+    if ((a < 0) == (b < 0)) return;
+    const bool up = a < 0, long_enough = edge.size > kPoint * (length_squared(edge.a) * length_squared(edge.b));
+    const double crossing = long_enough ? edge.d : b * dot(x_, edge.a) - a * dot(x_, edge.b);
+    if (up) turns_ += crossing >= 0 ? 1 : 0;  // as J does with d = 0
+    if (!up) turns_ -= crossing < 0 ? 1 : 0;
   }
+  bool around() const { return turns_ > 0; }
 
  private:
+  static constexpr double kPoint = 1e-12;  // of an angle's square
   Vec3 x_, y_;
+  int turns_ = 0;
 };
 
 }  // namespace
@@ -112,11 +120,13 @@ double Lobe::raised(double squared) const {
 double lobe_over(const Lobe& lobe, const Vec3& mirrored, const Vec3& normal, const DirectionPolygon& polygon) {
   if (polygon.count < 3) return 0;
   double sum = 0;
+  Winding winding(mirrored);
   for (std::uint32_t k = 0; k < polygon.count; ++k) {
-    const Vec3& next = polygon.corner[k + 1 < polygon.count ? k + 1 : 0];
-    sum += edge_part(lobe, mirrored, normal, polygon.corner[k], next);
+    const Edge edge(polygon.corner[k], polygon.corner[k + 1 < polygon.count ? k + 1 : 0], mirrored);
+    winding.add(edge);
+    sum += edge_part(lobe, mirrored, normal, edge);
   }
-  if (Winding(mirrored).holds(polygon)) sum += kTwoPi * dot(normal, mirrored);
+  if (winding.around()) sum += kTwoPi * dot(normal, mirrored);
   return sum > 0 ? lobe.strength / (lobe.exponent + 2) * sum : 0;
 }
 
