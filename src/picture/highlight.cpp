@@ -13,6 +13,7 @@ constexpr double kLobeEnd = 0x1p-20;
 constexpr double kLeastShown = 0.25;  // display steps
 constexpr double kEvenWidth = 0.5;    // of a lobe, radians, at most: how even it is
 constexpr double kShort = 8;          // times a way between samples: the least distance of a light
+constexpr NearTriangles kNothingNear{};
 constexpr std::uint32_t kPoints = 610, kPointStep = 377;  // neighbours of Fibonacci's
 
 Vec3 vector_of(const LatticeVector& v) {
@@ -163,9 +164,10 @@ bool Highlights::light_even(std::uint32_t l, const HighlightLook& a, const Highl
 }
 
 bool Highlights::lamp_even(const Lamp& lamp, const HighlightLook& a, const HighlightLook& b) const {
-  if (!reaches(lamp, a) && !reaches(lamp, b)) return true;
+  const Lamps::FaceSet seen_a = lamps_.seen_from(lamp, a.point), seen_b = lamps_.seen_from(lamp, b.point);
+  if (!(unshadowed(lamp, a, seen_a) > 0) && !(unshadowed(lamp, b, seen_b) > 0)) return true;
   if (!is_short(a.point, b.point, lamp.centre, lamp.radius * 0.75)) return false;
-  const Lamps::FaceSet seen = lamps_.seen_from(lamp, a.point) | lamps_.seen_from(lamp, b.point);
+  const Lamps::FaceSet seen = seen_a | seen_b;
   LatticeBox from = box_of(a.from);
   from.include(b.from);
   NearTriangles near;
@@ -247,34 +249,47 @@ bool Highlights::reaches(const Lamp& lamp, const HighlightLook& look) const {
   return most * kWhite >= kLeastShown * scene_->display.max_cd_m2 * squared;
 }
 
-void Highlights::add_lamp(const Lamp& lamp, const HighlightLook& look, Sum& luminance) const {
-  if (!(look.lobe.strength > 0) || !reaches(lamp, look)) return;
+/// What it shows if nothing stands between, for luminance 1, in the first channel; 0 where that is too little to see.
+double Highlights::unshadowed(const Lamp& lamp, const HighlightLook& look, Lamps::FaceSet seen) const {
   Sum sum = {0, 0, 0};
+  if (!reaches(lamp, look) || !add_seen(lamp, look, seen, kNothingNear, sum)) return 0;
+  const Rgb& colour = scene_->lights[lamp.light].colour;
+  double most = colour.c[0];
+  for (std::uint32_t c = 1; c < scene_->channels; ++c) most = colour.c[c] > most ? colour.c[c] : most;
+  const double shown = most * luminance_of(lamp, look.point) * sum[0];
+  return shown * kWhite >= kLeastShown * scene_->display.max_cd_m2 ? sum[0] : 0;
+}
+
+void Highlights::add_lamp(const Lamp& lamp, const HighlightLook& look, Sum& luminance) const {
+  const Lamps::FaceSet seen = lamps_.seen_from(lamp, look.point);
+  const double most = unshadowed(lamp, look, seen);
+  if (!(most > 0)) return;
   const Light& light = scene_->lights[lamp.light];
-  if (!add_seen(lamp, look, sum)) {
+  NearTriangles near;
+  sight_.find_near(lamp, *look.surface, box_of(look.from), seen, ~seen, near);
+  Sum sum = {most, most, most};
+  if (near.count > 0) {
     for (double& s : sum) s = 0;
-    for (const LampFace& face : lamps_.faces(lamp)) {
-      if (face.height(look.point) > 0) add_points(lamp, face, look, sum);
-    }
-    for (std::uint32_t c = 0; c < 3; ++c) luminance[c] += sum[c];
-    return;
+    if (!near.all() || !add_seen(lamp, look, seen, near, sum)) return add_points(lamp, look, luminance);
   }
   const double shines = luminance_of(lamp, look.point);
   for (std::uint32_t c = 0; c < 3; ++c) luminance[c] += light.colour.c[c] * shines * sum[c];
 }
 
-/// For luminance 1; false if what stands between has no room.
-bool Highlights::add_seen(const Lamp& lamp, const HighlightLook& look, Sum& sum) const {
-  const Lamps::FaceSet seen = lamps_.seen_from(lamp, look.point);
-  NearTriangles near;
-  sight_.find_near(lamp, *look.surface, box_of(look.from), seen, ~seen, near);
-  if (!near.all()) return false;
+/// For luminance 1; false if the pieces of what is seen have no room.
+bool Highlights::add_seen(const Lamp& lamp, const HighlightLook& look, Lamps::FaceSet seen, const NearTriangles& near,
+                          Sum& sum) const {
   if (lamp.has_outline() && !near.crossing && sight_.add_outline(lamp, look, seen, near, sum)) return true;
-  for (double& s : sum) s = 0;
   for (const LampFace& face : lamps_.faces(lamp)) {
     if (face.height(look.point) > 0 && !sight_.add_face(lamp, face, look, near, sum)) return false;
   }
   return true;
+}
+
+void Highlights::add_points(const Lamp& lamp, const HighlightLook& look, Sum& luminance) const {
+  for (const LampFace& face : lamps_.faces(lamp)) {
+    if (face.height(look.point) > 0) add_points(lamp, face, look, luminance);
+  }
 }
 
 /// By segments to points of a face.

@@ -64,7 +64,10 @@ class Highlights {
   void add_point(std::uint32_t light, const HighlightLook& look, Sum& sum) const;
   void add_sun(std::uint32_t light, const HighlightLook& look, Sum& sum) const;
   void add_lamp(const Lamp& lamp, const HighlightLook& look, Sum& luminance) const;
-  bool add_seen(const Lamp& lamp, const HighlightLook& look, Sum& sum) const;
+  double unshadowed(const Lamp& lamp, const HighlightLook& look, Lamps::FaceSet seen) const;
+  bool add_seen(const Lamp& lamp, const HighlightLook& look, Lamps::FaceSet seen, const NearTriangles& near,
+                Sum& sum) const;
+  void add_points(const Lamp& lamp, const HighlightLook& look, Sum& luminance) const;
   void add_points(const Lamp& lamp, const LampFace& face, const HighlightLook& look, Sum& sum) const;
   void add_segment(std::uint32_t light, double shown, const Ray& ray, bool ends, Sum& sum) const;
 

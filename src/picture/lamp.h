@@ -4,7 +4,7 @@
 // of a convex polyhedron only the outline counts, the edges between a face that is seen from its front and one that is
 // not. Whether a polyhedron is closed and convex is found once, from the file's coordinates: each edge belongs to
 // two faces, each face is flat and all corners lie behind it, to 1e-4 of the radius. Other lamps go face by face.
-// Exact: which faces are seen, but for rounding. Bytes: 96 a lamp, 40 a face, and of a polyhedron of up to 64 faces 32
+// Exact: which faces are seen, but for rounding. Bytes: 80 a lamp, 40 a face, and of a polyhedron of up to 64 faces 32
 // a face and 48 (corners and edges).
 #pragma once
 

@@ -46,7 +46,7 @@ struct LampSight::Screen {
 
 struct LampSight::Work {
   const HighlightLook& look;
-  const NearTriangles& near;
+  NearTriangles near;
   const LampFace* face;  // null: all triangles are before the lamp
   double least_size;     // of a piece
 };
@@ -206,13 +206,21 @@ double LampSight::measure(Part& piece) {
 }
 
 /// Of the polygon of pieces_[0], which the surface's plane may cut.
-bool LampSight::add_polygon(Work work, double (&sum)[3]) const {
+bool LampSight::add_polygon(Work& work, double (&sum)[3]) const {
   Part& whole = pieces_[0];
   if (!split(whole.polygon, work.look.normal, pieces_[1].polygon)) return false;
   if (whole.polygon.count < 3) return true;
   for (double& light : whole.light) light = 1;
   whole.next = 0;
   work.least_size = kLeastPiece * kLeastPiece * measure(whole);
+  // Those that cut the whole: of the hull of a point and a box most lies beside the lamp.
+  std::uint32_t cutting = 0;
+  for (std::uint32_t k = 0; k < work.near.count; ++k) {
+    Screen screen;
+    if (!screen_of(work.near.triangle[k], work, screen) || screen.is_beside(whole.polygon)) continue;
+    work.near.triangle[cutting++] = work.near.triangle[k];
+  }
+  work.near.count = cutting;
   double seen[3] = {0, 0, 0};
   const HighlightLook& look = work.look;
   for (std::uint32_t count = 1; count > 0;) {
@@ -232,7 +240,8 @@ bool LampSight::add_polygon(Work work, double (&sum)[3]) const {
 
 bool LampSight::add_outline(const Lamp& lamp, const HighlightLook& look, Lamps::FaceSet seen,
                             const NearTriangles& near, double (&sum)[3]) const {
-  return lamps_->outline(lamp, seen, look.point, pieces_[0].polygon) && add_polygon({look, near, nullptr, 0}, sum);
+  Work work{look, near, nullptr, 0};
+  return lamps_->outline(lamp, seen, look.point, pieces_[0].polygon) && add_polygon(work, sum);
 }
 
 bool LampSight::add_face(const Lamp& lamp, const LampFace& face, const HighlightLook& look, const NearTriangles& near,
@@ -246,7 +255,8 @@ bool LampSight::add_face(const Lamp& lamp, const LampFace& face, const Highlight
     for (std::uint32_t c = part.corners; c-- > 0;) {
       if (!pieces_[0].polygon.push(part.corner[c] - look.point)) return false;
     }
-    if (part.corners != 0 && !add_polygon({look, near, &face, 0}, all)) return false;
+    Work work{look, near, &face, 0};
+    if (part.corners != 0 && !add_polygon(work, all)) return false;
   }
   for (std::uint32_t c = 0; c < 3; ++c) sum[c] += all[c];
   return true;

@@ -66,7 +66,7 @@ class LampSight {
   bool find_cut(const Work& work, Part& piece, Screen& screen) const;
   bool cut(const Screen& screen, const Work& work, std::uint32_t& count) const;
   static double measure(Part& piece);
-  bool add_polygon(Work work, double (&sum)[3]) const;
+  bool add_polygon(Work& work, double (&sum)[3]) const;
 
   const Scene* scene_ = nullptr;
   const Geometry* geometry_ = nullptr;
