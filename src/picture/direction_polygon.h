@@ -1,7 +1,8 @@
 // A convex polygon of directions, such as a lamp fills seen from a point, and cuts of it (picture/highlight.h).
 //
-// Corners are vectors of any length, less than a half space of them; the inside lies where (corner k x corner k+1).u is
-// positive. A plane through the point cuts such a polygon into two: a new corner lies between two old ones. Doubles. 584 bytes.
+// Corners are vectors of any length, less than a half space of them; the inside lies where (corner k x corner k+1).u
+// is positive. A plane through the point cuts such a polygon into two: a new corner lies between two old ones. Doubles.
+// 584 bytes.
 #pragma once
 
 #include <cstdint>

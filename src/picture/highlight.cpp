@@ -22,8 +22,8 @@ Vec3 vector_of(const LatticeVector& v) {
 
 LatticeBox box_of(const LatticePoint& p) { return {{p.x, p.y, p.z}, {p.x, p.y, p.z}}; }
 
-/// An odd point 16 steps, more than mending moves a corner, in front of a face, on its own: what blocks may be gone when
-/// pictures are drawn.
+/// An odd point 16 steps, more than mending moves a corner, in front of a face, on its own: what blocks may be gone
+/// when pictures are drawn.
 LatticePoint end_at(const Lattice& lattice, const Piece& face, const Vec3& point) {
   constexpr std::int32_t kOff = 16;
   Triangle own[2];
@@ -111,22 +111,25 @@ HighlightLook Highlights::look_from(std::uint32_t optics, const HighlightView& v
   return look;
 }
 
-void Highlights::add(std::uint32_t optics, const HighlightView& view, double (&luminance)[3]) const {
+bool Highlights::add(std::uint32_t optics, const HighlightView& view, double (&luminance)[3]) const {
   const HighlightLook look = look_from(optics, view);
   for (std::uint32_t l = 0; l < scene_->lights.size(); ++l) {
     if (scene_->lights[l].kind == LightKind::kPoint) add_point(l, look, luminance);
     if (scene_->lights[l].kind == LightKind::kSun) add_sun(l, look, luminance);
   }
-  for (const Lamp& lamp : lamps_.lamps()) add_lamp(lamp, look, luminance);
+  bool lamps = false;
+  for (const Lamp& lamp : lamps_.lamps()) lamps = add_lamp(lamp, look, luminance) || lamps;
+  return lamps;
 }
 
-bool Highlights::even(std::uint32_t optics, const HighlightView& a, const HighlightView& b) const {
+bool Highlights::even(std::uint32_t optics, const HighlightView& a, const HighlightView& b, bool lamps) const {
   const HighlightLook at_a = look_from(optics, a), at_b = look_from(optics, b);
   const double width = at_a.lobe.width < kEvenWidth ? at_a.lobe.width : kEvenWidth;
   if (!(dot(at_a.mirrored, at_b.mirrored) >= 1 - width * width / 32)) return false;
   for (std::uint32_t l = 0; l < scene_->lights.size(); ++l) {
     if (!light_even(l, at_a, at_b)) return false;
   }
+  if (!lamps) return true;
   for (const Lamp& lamp : lamps_.lamps()) {
     if (!lamp_even(lamp, at_a, at_b)) return false;
   }
@@ -244,8 +247,8 @@ bool Highlights::reaches(const Lamp& lamp, const HighlightLook& look) const {
   if (inside) return true;
   if (!(nearest > reach * squared)) return false;
   const double cosine = nearest / squared;
-  const double most = look.lobe.strength * look.lobe.raised(cosine < 1 ? cosine * cosine : 1) * kTwoPi * radius_squared *
-                      luminance_of(lamp, look.point);
+  const double lobe = look.lobe.strength * look.lobe.raised(cosine < 1 ? cosine * cosine : 1);
+  const double most = lobe * kTwoPi * radius_squared * luminance_of(lamp, look.point);
   return most * kWhite >= kLeastShown * scene_->display.max_cd_m2 * squared;
 }
 
@@ -260,20 +263,25 @@ double Highlights::unshadowed(const Lamp& lamp, const HighlightLook& look, Lamps
   return shown * kWhite >= kLeastShown * scene_->display.max_cd_m2 ? sum[0] : 0;
 }
 
-void Highlights::add_lamp(const Lamp& lamp, const HighlightLook& look, Sum& luminance) const {
+/// Whether it would show if nothing stood between.
+bool Highlights::add_lamp(const Lamp& lamp, const HighlightLook& look, Sum& luminance) const {
   const Lamps::FaceSet seen = lamps_.seen_from(lamp, look.point);
   const double most = unshadowed(lamp, look, seen);
-  if (!(most > 0)) return;
+  if (!(most > 0)) return false;
   const Light& light = scene_->lights[lamp.light];
   NearTriangles near;
   sight_.find_near(lamp, *look.surface, box_of(look.from), seen, ~seen, near);
   Sum sum = {most, most, most};
   if (near.count > 0) {
     for (double& s : sum) s = 0;
-    if (!near.all() || !add_seen(lamp, look, seen, near, sum)) return add_points(lamp, look, luminance);
+    if (!near.all() || !add_seen(lamp, look, seen, near, sum)) {
+      add_points(lamp, look, luminance);
+      return true;
+    }
   }
   const double shines = luminance_of(lamp, look.point);
   for (std::uint32_t c = 0; c < 3; ++c) luminance[c] += light.colour.c[c] * shines * sum[c];
+  return true;
 }
 
 /// For luminance 1; false if the pieces of what is seen have no room.

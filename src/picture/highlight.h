@@ -5,8 +5,8 @@
 //
 //     L = k (n + 2) / (2 pi) sum of E (l.r)^n, E = illuminance of the surface by the light (N.l in it)
 //
-// so that a surface in a furnace sends at most k of what it gets. Point lights and suns are one direction. Lamps, that is
-// area lights and polyhedra, are polygons of directions, over which the lobe is summed along their edges: convex
+// so that a surface in a furnace sends at most k of what it gets. Point lights and suns are one direction. Lamps, that
+// is area lights and polyhedra, are polygons of directions, over which the lobe is summed along their edges: convex
 // polyhedra by their outline, others face by face (lamp.h). What stands between is cut off the polygon or, a pane,
 // weakens a part of it (lamp_sight.h); where more stands between than has room there, 610 segments or more go to points
 // of the faces, those of a Fibonacci lattice, no two in one row or column, so that an edge's shadow has as many shades.
@@ -46,10 +46,11 @@ class Highlights {
   /// between them and a point light or sun that they show; a light is 8 times as far away as they are apart; what may
   /// come between them and a lamp is so far away that from one to the other it moves by a quarter of a lobe's width
   /// at most, and so does the mirrored direction of view.
-  bool even(std::uint32_t optics, const HighlightView& a, const HighlightView& b) const;
+  /// `lamps`: what add() said of one of them.
+  bool even(std::uint32_t optics, const HighlightView& a, const HighlightView& b, bool lamps) const;
 
-  /// Adds the luminance of a material's highlight, cd/m2.
-  void add(std::uint32_t optics, const HighlightView& view, double (&luminance)[3]) const;
+  /// Adds the luminance of a material's highlight, cd/m2; whether a lamp would show if nothing stood between.
+  bool add(std::uint32_t optics, const HighlightView& view, double (&luminance)[3]) const;
 
  private:
   /// Luminance, while segments find what arrives.
@@ -63,7 +64,7 @@ class Highlights {
   bool lamp_even(const Lamp& lamp, const HighlightLook& a, const HighlightLook& b) const;
   void add_point(std::uint32_t light, const HighlightLook& look, Sum& sum) const;
   void add_sun(std::uint32_t light, const HighlightLook& look, Sum& sum) const;
-  void add_lamp(const Lamp& lamp, const HighlightLook& look, Sum& luminance) const;
+  bool add_lamp(const Lamp& lamp, const HighlightLook& look, Sum& luminance) const;
   double unshadowed(const Lamp& lamp, const HighlightLook& look, Lamps::FaceSet seen) const;
   bool add_seen(const Lamp& lamp, const HighlightLook& look, Lamps::FaceSet seen, const NearTriangles& near,
                 Sum& sum) const;

@@ -85,7 +85,8 @@ PiecePart piece_part(const Piece& piece, std::uint32_t part) {
 bool Lamps::start(const Scene& scene, const Geometry& geometry, Arena& arena) {
   const Counts counts = counts_of(scene);
   if (!arena.take("lamps that highlights show", counts.lamps, lamps_) ||
-      !arena.take("faces of lamps", counts.faces, faces_) || !arena.take("corners of lamps", counts.corners, corners_) ||
+      !arena.take("faces of lamps", counts.faces, faces_) ||
+      !arena.take("corners of lamps", counts.corners, corners_) ||
       !arena.take("edges of lamps", counts.edges, edges_)) {
     return false;
   }

@@ -1,4 +1,5 @@
-// What of a lamp is seen from a point, past what stands between, and how much of a lobe that fills (picture/highlight.h).
+// What of a lamp is seen from a point, past what stands between, and how much of a lobe that fills
+// (picture/highlight.h).
 //
 // From the point a lamp is a convex polygon of directions, and so is each triangle in the way. One by one these are cut
 // off the polygon along their sides: what remains is a set of convex polygons, which nobody hides, or which panes
@@ -6,10 +7,11 @@
 // triangle leaves the smallest goes on first, so that few wait at a time. Pieces below 2^-24 of the lamp are left out.
 //
 // Candidates are found once for a lamp, in integers: what meets the hull of the point and the lamp's box
-// (visibility/shaft.h) and lies neither behind the surface nor beyond the lamp. A triangle is before a lamp with an outline if it is in
-// front of the plane of a face that is seen, and beyond it if it is behind all those, or outside one that isn't; if it
-// is neither, or the lamp has no outline, faces are taken one by one, and the triangle counts where it is before the
-// face's plane: the plane through the point and the line in which the two planes meet cuts the rest off.
+// (visibility/shaft.h) and lies neither behind the surface nor beyond the lamp. A triangle is before a lamp with an
+// outline if it is in front of the plane of a face that is seen, and beyond it if it is behind all those, or outside
+// one that isn't; if it is neither, or the lamp has no outline, faces are taken one by one, and the triangle counts
+// where it is before the face's plane: the plane through the point and the line in which the two planes meet cuts the
+// rest off.
 // Bytes: 624 times kMostPieces.
 #pragma once
 

@@ -1,4 +1,4 @@
-// How much of a lobe a polygon of directions fills, against sums over many small triangles, and against itself in pieces.
+// How much of a lobe a polygon of directions fills: against sums over many small triangles, and in pieces.
 #include <gtest/gtest.h>
 
 #include <cmath>

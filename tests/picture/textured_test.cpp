@@ -167,14 +167,14 @@ TEST(Textured, PlainsAreTheTwinsUpToTheHorizon) {
   expect_twin(plain);
 }
 
-// Where a map is so fine that fixed point doesn't hold its coordinates, its texture's mean is shown.
 /// A ramp of four texels across (or up) a texture, in linear light: what a sample shows tells where on it it lies.
 std::string ramp(bool across) {
   std::string text = "P5 4 4 255\n";
   for (int y = 0; y < 4; ++y) {
     for (int x = 0; x < 4; ++x) {
       const double linear = ((across ? x : 3 - y) + 0.5) / 4;
-      text += static_cast<char>(static_cast<unsigned char>(std::lround(255 * (1.055 * std::pow(linear, 1 / 2.4) - 0.055))));
+      const double srgb = 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+      text += static_cast<char>(static_cast<unsigned char>(std::lround(255 * srgb)));
     }
   }
   return text;
@@ -188,7 +188,8 @@ TEST(Textured, CoordinatesAreWithinASixteenthOfATexelOfTheExactOnesUpToTheHorizo
       TexturedScene scene(
           "shodo 1\ndisplay 0 110\nmaterial m diffuse 0.4 texture r.pgm\nobject o\n"
           "quad m -90 0 -90  -90 0 90  90 0 90  90 0 -90  patches 1 1 sub 3 2\n"
-          "camera a eye 1 " + std::to_string(height) + " 2 look 4 " + std::to_string(0.9 * height) + " 4 up 0 1 0 fov 70\n",
+          "camera a eye 1 " + std::to_string(height) + " 2 look 4 " + std::to_string(0.9 * height) +
+              " 4 up 0 1 0 fov 70\n",
           {{"r.pgm", ramp(across)}}, plain_options());
       scene.light.fill(400);
       const Scene& s = scene.loaded.scene;
@@ -225,6 +226,7 @@ TEST(Textured, CoordinatesAreWithinASixteenthOfATexelOfTheExactOnesUpToTheHorizo
   }
 }
 
+// Where a map is so fine that fixed point doesn't hold its coordinates, its texture's mean is shown.
 TEST(Textured, ManyThousandSubPatchesShowTheMean) {
   TexturedScene scene(
       "shodo 1\ndisplay 0 250\nmaterial m diffuse 0.4 texture c.pgm size 0.5 0.5\nobject o\n"
