@@ -234,17 +234,17 @@ TEST(PictureOptics, HighlightsOfClosedLampsByTheirOutline) {
 }
 
 TEST(PictureOptics, HighlightsPastMoreThanHasRoomAreSummedOverPoints) {
-  // 96 slats, 192 triangles, before half of an area light.
+  // 200 slats, 400 triangles, before half of an area light.
   std::string slats = "object slats\n";
-  for (int k = 0; k < 96; ++k) {
-    const double y = 1.2 + 0.005 * k;
+  for (int k = 0; k < 200; ++k) {
+    const double y = 1.2 + 0.0024 * k;
     slats += "quad grey 1.2 " + std::to_string(y) + " 0.6  2.0 " + std::to_string(y) + " 0.6  2.0 " +
-             std::to_string(y + 0.0025) + " 0.6  1.2 " + std::to_string(y + 0.0025) + " 0.6  patches 1 1 sub 1 1\n";
+             std::to_string(y + 0.0012) + " 0.6  1.2 " + std::to_string(y + 0.0012) + " 0.6  patches 1 1 sub 1 1\n";
   }
   OpticsScene scene(kRoom + kBackWall + kGlossy + slats +
-                    "light a area quad 1.4 1.9 0.3  2.2 1.9 0.3  2.2 1.9 0.9  1.4 1.9 0.9 luminance 2500\n", small(32, 24));
+                    "light a area quad 1.4 1.9 0.3  2.2 1.9 0.3  2.2 1.9 0.9  1.4 1.9 0.9 luminance 2500\n", small(24, 18));
   const Outcome outcome = scene.compare();
-  // 610 points on 192 edges: shadows are noisy by a few levels, and right in the mean.
+  // 610 points on 400 edges: shadows are noisy by a few levels, and right in the mean.
   RecordProperty("pixels_off", static_cast<int>(outcome.off));
   EXPECT_LE(outcome.off * 25, outcome.pixels) << outcome.off << " of " << outcome.pixels;
 }
