@@ -234,12 +234,11 @@ TEST(PictureOptics, HighlightsOfClosedLampsByTheirOutline) {
 }
 
 TEST(PictureOptics, HighlightsPastMoreThanHasRoomAreSummedOverPoints) {
-  // 200 slats, 400 triangles, before half of an area light.
+  // 200 slats, 400 triangles, close below an area light: half of it shows between them.
   std::string slats = "object slats\n";
   for (int k = 0; k < 200; ++k) {
-    const double y = 1.2 + 0.0024 * k;
-    slats += "quad grey 1.2 " + std::to_string(y) + " 0.6  2.0 " + std::to_string(y) + " 0.6  2.0 " +
-             std::to_string(y + 0.0012) + " 0.6  1.2 " + std::to_string(y + 0.0012) + " 0.6  patches 1 1 sub 1 1\n";
+    const std::string z0 = std::to_string(0.25 + 0.0035 * k), z1 = std::to_string(0.25175 + 0.0035 * k);
+    slats += "quad grey 1.3 1.8 " + z0 + "  2.3 1.8 " + z0 + "  2.3 1.8 " + z1 + "  1.3 1.8 " + z1 + "  patches 1 1 sub 1 1\n";
   }
   OpticsScene scene(kRoom + kBackWall + kGlossy + slats +
                     "light a area quad 1.4 1.9 0.3  2.2 1.9 0.3  2.2 1.9 0.9  1.4 1.9 0.9 luminance 2500\n", small(24, 18));
