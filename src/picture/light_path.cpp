@@ -310,7 +310,7 @@ std::uint32_t LightPaths::map_value(const DrawnTriangle& drawn, const MapPlace& 
 void LightPaths::add_highlight(const DrawnTriangle& drawn, const LatticePoint& point, const LatticeVector& mirrored,
                                const Path& path, std::uint32_t optics, FineColour& sum, PathHit* noted) const {
   double luminance[3] = {0, 0, 0};
-  highlights_.add(optics, {&drawn, point, mirrored}, luminance);
+  const bool lamps = highlights_.add(optics, {&drawn, point, mirrored}, luminance);
   std::uint32_t shown[3] = {0, 0, 0};
   for (std::uint32_t c = 0; c < scene_->channels; ++c) {
     shown[c] = fine_steps(luminance[c]);
@@ -318,6 +318,7 @@ void LightPaths::add_highlight(const DrawnTriangle& drawn, const LatticePoint& p
   }
   if (noted == nullptr) return;
   noted->shines = true;
+  noted->lamps = lamps;
   noted->at = point;
   noted->mirrored[0] = static_cast<std::int32_t>(mirrored.x);
   noted->mirrored[1] = static_cast<std::int32_t>(mirrored.y);

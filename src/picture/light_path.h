@@ -47,6 +47,7 @@ struct PathHit {
   bool reflected;              // how the ray came here from `parent`: off it, or through it
   std::uint8_t parent;         // index; kNoHit: from the eye
   bool shines;                 // has a highlight
+  bool lamps;                  // a lamp would show in it if nothing stood between
   LatticePoint at;             // to a few lattice steps; of the background beyond the scene
   std::uint32_t shown[3];      // fine steps of the highlight, or of the background
   std::int32_t mirrored[3];    // direction, where it shines

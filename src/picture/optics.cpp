@@ -242,7 +242,8 @@ PictureOptics::Join PictureOptics::join(const PathRecord& a, const PathRecord& b
     const DrawnTriangle &at_a = geometry_->drawn[here.triangle], &at_b = geometry_->drawn[there.triangle];
     const HighlightView from{&at_a, here.at, {here.mirrored[0], here.mirrored[1], here.mirrored[2]}},
         to{&at_b, there.at, {there.mirrored[0], there.mirrored[1], there.mirrored[2]}};
-    if (!paths_.highlights().even(paths_.optics_at(at_a), from, to)) return Join::kNo;
+    const bool lamps = here.lamps || there.lamps;
+    if (!paths_.highlights().even(paths_.optics_at(at_a), from, to, lamps)) return Join::kNo;
   }
   return shines ? Join::kIfMiddleAgrees : Join::kYes;
 }

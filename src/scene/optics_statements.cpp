@@ -34,7 +34,7 @@ bool read_up(SceneReading& reading) {
   return read_direction(reading.words, {"up"}, background_of(reading).up);
 }
 
-/// picture FILE towards X Y Z width DEGREES luminance L
+/// picture FILE towards X Y Z width DEGREES luminance L [around]
 bool read_picture(SceneReading& reading) {
   Words& words = reading.words;
   BackgroundWords& value = value_of<BackgroundWords>(reading);
@@ -52,6 +52,8 @@ bool read_picture(SceneReading& reading) {
                                              background.luminance);
     if (!read) return false;
   }
+  background.around = words.at_word() && words.peek().text == "around";
+  if (background.around) words.take();
   return true;
 }
 

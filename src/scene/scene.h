@@ -40,6 +40,7 @@ struct Background {
   Vec3 up{0, 1, 0};             // unit
   // A picture far away, in the middle of the direction `towards`, upright against `up`: index of its texture.
   std::uint32_t picture = kNone;
+  bool around = false;          // beside it its mirror image goes on, all round
   Vec3 towards{0, 0, -1};       // unit
   double width_degrees = 60;
   double luminance = 0;         // of its white, cd/m2

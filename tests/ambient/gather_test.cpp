@@ -235,6 +235,51 @@ TEST(Gather, AgreesWithAGatherOverEverything) {
   EXPECT_LT(std::sqrt(square / count), 0.02 * mean);
 }
 
+/// A floor under half of which a coloured pane hangs, against a sum over 128 x 128 places of the floor.
+TEST(Gather, PanesWeakenWhatComesThroughThemByTheMeanOfTheirChannels) {
+  const double passes[3] = {0.9, 0.5, 0.1}, mean = (0.9 + 0.5 + 0.1) / 3;
+  const auto scene = [&](bool pane) {
+    return grey(0.5) + "material black diffuse 0\nmaterial red diffuse 0 transmit 0.9 0.5 0.1\nobject floor_\n" +
+           patchy("white", {0, 0, 0, 4, 0, 0, 4, 4, 0, 0, 4, 0}, 8, 8) + "object ceiling_\n" +
+           patchy("black", {0, 0, 3, 0, 4, 3, 4, 4, 3, 4, 0, 3}, 8, 8) +
+           (pane ? "object pane_\n" + patchy("red", {-1, -1, 1.3, 2.1, -1, 1.3, 2.1, 5, 1.3, -1, 5, 1.3}, 1, 1) : "");
+  };
+  const auto lit = [](const Vec3&, std::uint32_t m) { return m == 0 ? 1000.0 : 0; };
+  Gathered room(scene(true), precise(), lit), bare(scene(false), precise(), lit);
+  const Scene& s = room.scene.loaded.scene;
+  ASSERT_EQ(s.channels, 3u);
+  ASSERT_EQ(s.optics_of(s.meshes[2].material)->transmit.c[2], passes[2]);
+  ASSERT_TRUE(room.gather().done());
+  ASSERT_TRUE(bare.gather().done());
+  const Mesh& ceiling = s.meshes[1];
+  double dimmest = 1, brightest = 0, square = 0;
+  for (std::uint32_t k = 0; k < ceiling.sub_patch_count(); ++k) {
+    const Vec3 at = sub_patch_piece(s, ceiling, k).centre() + s.origin;
+    double expected = 0, in_the_open = 0;
+    for (int i = 0; i < 128 * 128; ++i) {
+      const double x = (i % 128 + 0.5) / 32, y = (i / 128 + 0.5) / 32, squared = length_squared(at - Vec3{x, y, 0});
+      const double lx = 500 * (3.0 * 3.0) / (M_PI * squared * squared) / (32 * 32);
+      const double crosses = x + (at.x - x) * 1.3 / 3;
+      expected += lx * (crosses < 2.1 ? mean : 1);
+      in_the_open += lx;
+    }
+    dimmest = std::min(dimmest, expected / in_the_open);
+    brightest = std::max(brightest, expected / in_the_open);
+    const double open = static_cast<double>(bare.lx[std::size_t{ceiling.first_sub_patch + k} * 3]);
+    EXPECT_NEAR(open, in_the_open, 0.005 * in_the_open);
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      // The pane's edge lies across a column of patches of the floor, and two to four segments say what of each it hides.
+      const double found = static_cast<double>(room.lx[std::size_t{ceiling.first_sub_patch + k} * 3 + c]);
+      EXPECT_NEAR(found, expected, 0.03 * in_the_open) << k << ' ' << c;
+      square += (found - expected) * (found - expected) / (in_the_open * in_the_open);
+    }
+  }
+  EXPECT_LT(std::sqrt(square / (3 * ceiling.sub_patch_count())), 0.01);
+  // The pane shows: sub-patches see little or most of the floor through it.
+  EXPECT_LT(dimmest, 0.65);
+  EXPECT_GT(brightest, 0.85);
+}
+
 TEST(Gather, KeepsTheEnergyOfTheSolution) {
   Gathered room(furnished(0.6), precise(), spot);
   std::vector<float> before = room.lx;

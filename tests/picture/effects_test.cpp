@@ -184,6 +184,37 @@ TEST(BackgroundPicture, HangsFarAwayUprightAndUnmirrored) {
   EXPECT_GT(within, 1500u);
 }
 
+/// A square room's four walls of sky, the picture 90 degrees wide: what is beside it is its mirror image.
+TEST(BackgroundPicture, GoesOnAroundAsItsMirrorImage) {
+  const std::string far = noise_ppm(12, 9, 5, 150);
+  const auto drawn = [&](const std::string& look, const std::string& around) {
+    Options options = small_picture();
+    options.antialias = 1;
+    DrawnRun run("shodo 1\ndisplay 0 100\ncamera c eye 0 0 0 look " + look + " up 0 1 0 fov 70\n"
+                 "background zenith 0 horizon 0 ground 0 picture far.ppm towards -1 0 0 width 90 luminance 100" + around +
+                 "\nmaterial m diffuse 0.5\nobject o\nquad m 0 -6 0  0 -6 1  1 -6 1  1 -6 0\n",
+                 {{"far.ppm", far}}, options);
+    return run.solved().picture();
+  };
+  const std::vector<std::uint8_t> ahead = drawn("-1 0 0", " around");
+  // Ahead 86 degrees are seen, all of them of the picture.
+  EXPECT_EQ(ahead, drawn("-1 0 0", ""));
+  for (const char* const beside : {"0 0 1", "0 0 -1"}) {
+    const std::vector<std::uint8_t> seen = drawn(beside, " around");
+    EXPECT_NE(seen, drawn(beside, ""));
+    for (std::size_t y = 0; y < 48; ++y) {
+      for (std::size_t x = 0; x < 64; ++x) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          EXPECT_NEAR(seen[3 * (y * 64 + x) + c], ahead[3 * (y * 64 + 63 - x) + c], 1) << x << ' ' << y;
+        }
+      }
+    }
+  }
+  // Behind it is mirrored twice.
+  const std::vector<std::uint8_t> behind = drawn("1 0 0", " around");
+  for (std::size_t k = 0; k < behind.size(); ++k) EXPECT_NEAR(behind[k], ahead[k], 1);
+}
+
 TEST(BackgroundPicture, IsNotHungAlongItsUp) {
   const TestScene scene("shodo 1\n"
                         "background zenith 1 horizon 1 ground 1 picture a.ppm towards 0 1 0 width 60 luminance 9\n");

@@ -15,6 +15,7 @@
 #include "support/files.h"
 #include "support/picture_twin.h"
 #include "support/kept_scene.h"
+#include "support/smooth_light.h"
 #include "support/texture_twin.h"
 
 namespace shodo {
@@ -22,16 +23,10 @@ namespace {
 
 /// A scene with maps that vary, and its picture.
 struct TexturedScene {
-  TexturedScene(const std::string& text, const TestFiles& files, Options of) : loaded(text, of, files), options(of) {
+  TexturedScene(const std::string& text, const TestFiles& files, Options of)
+      : loaded(text, of, files), options(of), light(loaded.scene, 400, 100, 0.4), maps(light.maps()) {
+    // Of 300 to 500 lx, a picture's levels come from the texture mostly.
     EXPECT_TRUE(place_scene(loaded.scene, loaded.arena, geometry).done());
-    direct.resize(std::size_t{loaded.scene.sub_patch_count} * loaded.scene.channels);
-    ambient.resize(direct.size());
-    // Smooth: 300 to 500 lx, so that a picture's levels come from the texture mostly.
-    for (std::size_t k = 0; k < direct.size(); ++k) {
-      direct[k] = static_cast<float>(400 + 100 * std::sin(0.4 * static_cast<double>(k / loaded.scene.channels)));
-    }
-    maps.direct_lx = direct;
-    maps.ambient_lx = ambient;
   }
 
   std::vector<std::uint8_t> draw() {
@@ -48,7 +43,7 @@ struct TexturedScene {
   KeptScene loaded;
   Options options;
   Geometry geometry;
-  std::vector<float> direct, ambient;
+  SmoothLight light;
   IlluminanceMaps maps;
 };
 
@@ -172,6 +167,65 @@ TEST(Textured, PlainsAreTheTwinsUpToTheHorizon) {
   expect_twin(plain);
 }
 
+/// A ramp of four texels across (or up) a texture, in linear light: what a sample shows tells where on it it lies.
+std::string ramp(bool across) {
+  std::string text = "P5 4 4 255\n";
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 4; ++x) {
+      const double linear = ((across ? x : 3 - y) + 0.5) / 4;
+      const double srgb = 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+      text += static_cast<char>(static_cast<unsigned char>(std::lround(255 * srgb)));
+    }
+  }
+  return text;
+}
+
+// From beneath the eye, and behind it, to the horizon. Levels tell places to 0.04 texel: a level is 0.0094 of white at
+// most, in the texture and in the picture, and each is rounded.
+TEST(Textured, CoordinatesAreWithinASixteenthOfATexelOfTheExactOnesUpToTheHorizon) {
+  for (const double height : {0.01, 0.3, 8.0}) {
+    for (const bool across : {true, false}) {
+      TexturedScene scene(
+          "shodo 1\ndisplay 0 110\nmaterial m diffuse 0.4 texture r.pgm\nobject o\n"
+          "quad m -90 0 -90  -90 0 90  90 0 90  90 0 -90  patches 1 1 sub 3 2\n"
+          "camera a eye 1 " + std::to_string(height) + " 2 look 4 " + std::to_string(0.9 * height) +
+              " 4 up 0 1 0 fov 70\n",
+          {{"r.pgm", ramp(across)}}, plain_options());
+      scene.light.fill(400);
+      const Scene& s = scene.loaded.scene;
+      const SampleGrid grid = sample_grid(view_of(s.cameras[0], scene.geometry.lattice, 200, 160), 200, 160, 1);
+      const PictureTwin twin(s, scene.geometry, grid);
+      const std::vector<std::uint8_t> rgb = scene.draw();
+      const double white = 0.4 * 400 / M_PI / 110 / (s.textures[0].mean[0] / 65535.0);
+      std::size_t compared = 0;
+      double worst = 0;
+      for (std::uint32_t y = 1; y + 1 < 160; ++y) {
+        for (std::uint32_t x = 1; x + 1 < 200; ++x) {
+          const TwinHit hit = twin.hit(x, y);
+          if (hit.triangle == kNone || !hit.front) continue;
+          const auto texel = [&](std::int64_t at_x, std::int64_t at_y) {
+            const auto at = twin.map_point(hit.triangle, at_x, at_y);
+            return static_cast<double>(across ? at[0] / s.meshes[0].map_width() : at[1] / s.meshes[0].map_height()) * 4;
+          };
+          const double exact = texel(x, y);
+          // Nearer the horizon coarser levels show, and beyond it neighbours lie behind the eye.
+          bool fine = exact > 0.5 && exact < 3.5 && twin.hit(x, y - 1).triangle != kNone;
+          for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+            fine = fine && std::abs(texel(x + dx, y + dy) - exact) < 0.9;
+          }
+          if (!fine) continue;
+          const double srgb = rgb[3 * (std::size_t{y} * 200 + x)] / 255.0;
+          const double linear = srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+          worst = std::max(worst, std::abs(linear / white * 4 - exact));
+          ++compared;
+        }
+      }
+      EXPECT_GT(compared, 1000u) << height;
+      EXPECT_LE(worst, 1.0 / 16) << height << ' ' << across;
+    }
+  }
+}
+
 // Where a map is so fine that fixed point doesn't hold its coordinates, its texture's mean is shown.
 TEST(Textured, ManyThousandSubPatchesShowTheMean) {
   TexturedScene scene(
@@ -179,8 +233,7 @@ TEST(Textured, ManyThousandSubPatchesShowTheMean) {
       "quad m -40 0 -40  -40 0 40  40 0 40  40 0 -40  patches 1 1 sub 40000 1\n"
       "camera a eye 0 1.5 0 look 3 0 2 up 0 1 0 fov 65\n",
       {{"c.pgm", checks(16)}}, plain_options());
-  std::fill(scene.direct.begin(), scene.direct.end(), 400.0f);
-  std::fill(scene.ambient.begin(), scene.ambient.end(), 0.0f);
+  scene.light.fill(400);
   const std::vector<std::uint8_t> rgb = scene.draw();
   // 400 lx at reflectance 0.4: 0.4 * 400 / pi / 250 of white, as sRGB.
   const double linear = 0.4 * 400 / M_PI / 250, expected = 255 * (1.055 * std::pow(linear, 1 / 2.4) - 0.055);
@@ -200,7 +253,7 @@ TEST(Textured, NothingShimmersAtADistance) {
   for (const char* const eye : {"0", "0.11", "0.23"}) {
     TexturedScene plain(std::string(kPlain) + "camera a eye " + eye + " 1.5 0 look 400 -30 40 up 0 1 0 fov 40\n",
                         {{"c.pgm", checks(16)}}, plain_options());
-    std::fill(plain.direct.begin(), plain.direct.end(), 400.0f);
+    plain.light.fill(400);
     const std::vector<std::uint8_t> rgb = plain.draw();
     const auto row = [&](std::uint32_t y) {
       const auto* const begin = &rgb[std::size_t{y} * 600];
