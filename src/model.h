@@ -11,6 +11,7 @@
 #include "light/direct.h"
 #include "light/plane_light.h"
 #include "map/illuminance_map.h"
+#include "picture/picture.h"
 #include "picture/seen_points.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
@@ -46,6 +47,7 @@ struct alignas(8) Model {  // as the blocks behind it
   std::uint64_t picture_scratch = 0;  // bytes of draw_picture(); found while the drawn triangles are there
   Arena::Mark before_maps = 0;     // what the picture is made of comes from here on
   Arena::Mark before_drawing = 0;
+  Picture* picture = nullptr;      // between prepare_drawing() and finish_drawing()
   Statistics loaded;               // and what was counted until then
   bool solved = false;
   bool placed = true;              // blocking triangles are there: until the picture wants their memory
@@ -69,6 +71,7 @@ Status send_over_mirrors(Model& model, const Progress& progress);
 Status solve_again(Model& model, const Progress& progress);
 Status solve_maps(Model& model, const Progress& progress);
 Status start_drawing(Model& model, const Progress& progress);
+Status prepare_drawing(Model& model);
 Status finish_drawing(Model& model, const Progress& progress, const LineSink& sink);
 
 }  // namespace shodo

@@ -403,17 +403,25 @@ Status start_drawing(Model& model, const Progress& progress) {
   return status.done() ? status : end_drawing(model, status);
 }
 
-Status finish_drawing(Model& model, const Progress& progress, const LineSink& sink) {
+Status prepare_drawing(Model& model) {
   Status status;
   if (keep_texels(model.scene, model.reader, model.arena, status)) {
-    status = draw_picture(model.scene, model.geometry, model.maps, model.options, progress, model.arena, sink);
+    status = prepare_picture(model.scene, model.geometry, model.maps, model.options, model.arena, model.picture);
   }
+  if (status.done()) return status;
+  forget_texels(model.scene);
+  return end_drawing(model, status);
+}
+
+Status finish_drawing(Model& model, const Progress& progress, const LineSink& sink) {
+  const Status status = draw_lines(*model.picture, model.options, progress, sink);
   forget_texels(model.scene);
   return end_drawing(model, status);
 }
 
 Status draw(Model& model, const Progress& progress, const LineSink& sink) {
-  const Status status = start_drawing(model, progress);
+  Status status = start_drawing(model, progress);
+  if (status.done()) status = prepare_drawing(model);
   return status.done() ? finish_drawing(model, progress, sink) : status;
 }
 

@@ -34,7 +34,7 @@ class LampSight {
   };
 
  public:
-  static constexpr std::uint32_t kMostPieces = 9;  // that wait at a time
+  static constexpr std::uint32_t kMostPieces = 8;  // that wait at a time
 
   [[nodiscard]] bool start(const Scene& scene, const Geometry& geometry, const RayTree& tree, const Lamps& lamps,
                            Arena& arena);

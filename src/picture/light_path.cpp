@@ -65,7 +65,7 @@ bool LightPaths::start(const Scene& scene, const Geometry& geometry, const Displ
   scene_ = &scene;
   geometry_ = &geometry;
   maps_ = maps;
-  grid_ = grid;
+  grid_ = &grid;
   textures_ = textures;
   const std::size_t lights = scene.lights.size() * scene.channels;
   if (!tree_.build(scene, geometry.drawn, arena) || !arena.take("parts of optics", scene.optics.size(), parts_) ||
@@ -129,8 +129,8 @@ MapTexels LightPaths::texels_of(const Mesh& mesh) const {
 
 void LightPaths::trace(std::int32_t column, std::uint32_t row, std::uint32_t triangle, FineColour& sum,
                        PathRecord* record) {
-  direction_ = grid_.direction(column, row);
-  Path path{{grid_.eye, ray_direction(direction_)}, {kWholePart, kWholePart, kWholePart}, 0, kNoHit, false, {}, 0, 1};
+  direction_ = grid_->direction(column, row);
+  Path path{{grid_->eye, ray_direction(direction_)}, {kWholePart, kWholePart, kWholePart}, 0, kNoHit, false, {}, 0, 1};
   if (record != nullptr || !textures_.empty()) {
     direction_length_ = length(real(direction_));
     path.speed = length(real(path.ray.direction));
@@ -267,7 +267,7 @@ void LightPaths::add_textured(const DrawnTriangle& drawn, const RayHit& hit, con
 /// Texels to the neighbours in the row and the column, the more of them.
 double LightPaths::texture_step(const DrawnTriangle& drawn, const RayHit& hit, const Path& path,
                                 const TextureShade& shade) const {
-  Vec3 way[3] = {real(direction_), real(grid_.across()), real(grid_.down())};
+  Vec3 way[3] = {real(direction_), real(grid_->across()), real(grid_->down())};
   for (std::uint32_t k = 0; k < path.reflections; ++k) {
     const Vec3 n = real(normal_of(geometry_->drawn[path.mirror[k]]));
     const double twice = 2 / dot(n, n);

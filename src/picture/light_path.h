@@ -132,7 +132,7 @@ class LightPaths {
   const Scene* scene_ = nullptr;
   const Geometry* geometry_ = nullptr;
   DisplayMaps maps_;
-  SampleGrid grid_;
+  const SampleGrid* grid_ = nullptr;
   std::span<const MeshTexture> textures_;
   RayTree tree_;
   Highlights highlights_;

@@ -95,7 +95,7 @@ bool PictureOptics::start(const Shown& shown, const Display& display, Arena& are
   const Scene& scene = shown.scene;
   scene_ = &scene;
   geometry_ = &shown.geometry;
-  grid_ = shown.grid;
+  grid_ = &shown.grid;
   roll_ = display.roll;
   const std::size_t samples = std::size_t{kLongestReach} * scene.channels;
   if (!paths_.start(scene, shown.geometry, shown.maps, shown.grid, shown.textures, arena) ||
@@ -127,7 +127,7 @@ void PictureOptics::add(std::uint32_t triangle, std::int32_t x0, std::int32_t x1
   triangle_ = triangle;
   row_ = row;
   sums_ = sums;
-  RunWalk runs(x0, x1, grid_.split - grid_.parts);
+  RunWalk runs(x0, x1, grid_->split - grid_->parts);
   while (runs.next(run_)) add_run();
 }
 
@@ -193,7 +193,7 @@ void PictureOptics::trace(std::int32_t x, PathRecord* record) {
   FineColour sum = {0, 0, 0};
   paths_.trace(run_.column_of(x), row_, triangle_, sum, record);
   if (record != nullptr) record->x = x;
-  std::uint32_t* const sums = &sums_[(static_cast<std::uint32_t>(x) >> grid_.parts) * scene_->channels];
+  std::uint32_t* const sums = &sums_[(static_cast<std::uint32_t>(x) >> grid_->parts) * scene_->channels];
   for (std::uint32_t c = 0; c < scene_->channels; ++c) {
     const std::uint64_t fine = roll_ ? rolled(sum[c] >> 16) << 16 : sum[c];
     const std::uint64_t steps = (fine + (std::uint64_t{1} << (15 + kFineBits))) >> (16 + kFineBits);
@@ -253,7 +253,7 @@ bool PictureOptics::nothing_between(const PathRecord& a, const PathRecord& b, st
   const PathHit &here = a.hit[k], &there = b.hit[k];
   const bool from_eye = here.parent == kNoHit;
   const PathHit* const parent = from_eye ? nullptr : &a.hit[here.parent];
-  const Beam beam(from_eye ? grid_.eye : parent->at, from_eye ? grid_.eye : b.hit[here.parent].at, here.at, there.at);
+  const Beam beam(from_eye ? grid_->eye : parent->at, from_eye ? grid_->eye : b.hit[here.parent].at, here.at, there.at);
   const std::span<const DrawnTriangle> drawn = geometry_->drawn;
   return paths_.tree().visit_in(beam, [&](std::uint32_t t) {
     if (t == here.triangle || t == there.triangle) return true;
@@ -314,7 +314,7 @@ void PictureOptics::fill(const PathRecord& a, const PathRecord& b) {
     }
   }
   for (std::int32_t k = 1; k < n; ++k) {
-    std::uint32_t* const sums = &sums_[(static_cast<std::uint32_t>(a.x + k) >> grid_.parts) * channels];
+    std::uint32_t* const sums = &sums_[(static_cast<std::uint32_t>(a.x + k) >> grid_->parts) * channels];
     for (std::uint32_t c = 0; c < channels; ++c) {
       const std::uint32_t found = fine_[static_cast<std::uint32_t>(k) * channels + c];
       const std::uint32_t fine = roll_ ? static_cast<std::uint32_t>(rolled(found)) : found;
@@ -331,7 +331,7 @@ bool PictureOptics::add_outdoors(const PathRecord& a, std::uint32_t hit, const s
   const std::uint32_t channels = scene_->channels;
   for (std::int32_t k = 1; k < n; ++k) {
     std::uint32_t shown[3];
-    paths_.background(ray_direction(grid_.direction(run_.column_of(a.x + k), row_)), shown);
+    paths_.background(ray_direction(grid_->direction(run_.column_of(a.x + k), row_)), shown);
     for (std::uint32_t c = 0; c < channels; ++c) {
       const std::uint32_t all = static_cast<std::uint32_t>(std::uint64_t{shown[c]} * part[c] >> 16);
       fine_[static_cast<std::uint32_t>(k) * channels + c] += all < kMostFine ? all : kMostFine;

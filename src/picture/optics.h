@@ -85,7 +85,7 @@ class PictureOptics {
 
   const Scene* scene_ = nullptr;
   const Geometry* geometry_ = nullptr;
-  SampleGrid grid_;
+  const SampleGrid* grid_ = nullptr;
   LightPaths paths_;
   std::span<std::uint8_t> whole_;       // by mesh: one convex polygon with one map
   std::span<PathRecord> records_;

@@ -46,7 +46,8 @@ SampleGrid grid_of(const Camera& camera, const Lattice& lattice, const Options& 
   return picture_grid(view, options.width, options.height, options.antialias);
 }
 
-/// Everything that lines are made of.
+}  // namespace
+
 struct Picture {
   const Scene* scene = nullptr;
   const Geometry* geometry = nullptr;
@@ -63,6 +64,8 @@ struct Picture {
   std::span<std::uint32_t> sums;   // [pixel * channels + channel]: display steps times columns, if pixels mix; mostly 0
   std::span<std::uint8_t> rgb;
 };
+
+namespace {
 
 /// Sums of a line of pixels: none where a pixel is one sample that shows one surface.
 std::size_t sums_of(const SampleGrid& grid, std::uint32_t width, std::uint32_t channels, bool with_optics) {
@@ -237,14 +240,15 @@ constexpr std::uint64_t rounded_up(std::uint64_t bytes) { return (bytes + 7) / 8
 
 }  // namespace
 
-Status draw_picture(const Scene& scene, const Geometry& geometry, const IlluminanceMaps& maps, const Options& options,
-                    const Progress& progress, Arena& arena, const LineSink& sink) {
+Status prepare_picture(const Scene& scene, const Geometry& geometry, const IlluminanceMaps& maps,
+                       const Options& options, Arena& arena, Picture*& prepared) {
   const Camera* camera = find_camera(scene, options.camera);
   if (camera == nullptr) return no_camera(scene, options.camera);
   constexpr std::uint32_t kMost = 16384;  // four rows of samples a pixel: 16 bits number them
   if (options.width - 1 >= kMost || options.height - 1 >= kMost) return wrong_size();
-  const ArenaScratch scratch(arena);
-  Picture picture;
+  std::span<Picture> room;
+  if (!arena.take("picture", 1, room)) return arena.refused();
+  Picture& picture = *new (room.data()) Picture;
   picture.scene = &scene;
   picture.geometry = &geometry;
   picture.display = scene.display;
@@ -259,6 +263,11 @@ Status draw_picture(const Scene& scene, const Geometry& geometry, const Illumina
   picture.roll.black = picture.with_optics ? luminance_steps(picture.shown.display, scene.display.min_cd_m2) : 0;
   picture.grid = grid_of(*camera, geometry.lattice, options);
   if (!prepare(picture, maps, options, arena)) return arena.refused();
+  prepared = &picture;
+  return {};
+}
+
+Status draw_lines(Picture& picture, const Options& options, const Progress& progress, const LineSink& sink) {
   const std::uint32_t rows = 1u << picture.grid.parts;
   for (std::uint32_t y = 0; y < options.height; ++y) {
     if (!progress.go_on(Stage::kPicture, y, options.height)) return interrupted();
@@ -272,6 +281,14 @@ Status draw_picture(const Scene& scene, const Geometry& geometry, const Illumina
   return {};
 }
 
+Status draw_picture(const Scene& scene, const Geometry& geometry, const IlluminanceMaps& maps, const Options& options,
+                    const Progress& progress, Arena& arena, const LineSink& sink) {
+  const ArenaScratch scratch(arena);
+  Picture* picture = nullptr;
+  const Status status = prepare_picture(scene, geometry, maps, options, arena, picture);
+  return status.done() ? draw_lines(*picture, options, progress, sink) : status;
+}
+
 std::uint64_t picture_bytes(const Scene& scene, const Geometry& geometry, const Options& options) {
   const Camera* camera = find_camera(scene, options.camera);
   if (camera == nullptr) return 0;
@@ -282,7 +299,7 @@ std::uint64_t picture_bytes(const Scene& scene, const Geometry& geometry, const 
   const std::uint64_t lines = rounded_up(kWhite + 1) + rounded_up(4 * std::uint64_t{sums}) +
                               rounded_up(3 * std::uint64_t{options.width}) + mesh_texture_bytes(scene) +
                               VisibleLines::bytes(scene, geometry, grid) + PictureOptics::bytes(scene, geometry);
-  return rounded_up(2 * std::uint64_t{scene.sub_patch_count} * scene.channels) +
+  return rounded_up(sizeof(Picture)) + rounded_up(2 * std::uint64_t{scene.sub_patch_count} * scene.channels) +
          (rounded_up(filling) > lines ? rounded_up(filling) : lines);
 }
 

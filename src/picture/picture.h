@@ -24,13 +24,22 @@ namespace shodo {
 const Camera* find_camera(const Scene& scene, std::string_view name);
 Status no_camera(const Scene& scene, std::string_view name);
 
-/// Draws the camera's view. Errors: kMemory, kInterrupted; kUsage for a camera that the scene doesn't have, or a size.
+/// Everything that lines are made of, in the arena: the maps as the display shows them, and what visibility, textures
+/// and optics start with.
+struct Picture;
+
+/// Errors: kMemory; kUsage for a camera that the scene doesn't have, or a size.
+Status prepare_picture(const Scene& scene, const Geometry& geometry, const IlluminanceMaps& maps,
+                       const Options& options, Arena& arena, Picture*& picture);
+/// Draws a prepared picture, line by line. Errors: kInterrupted.
+Status draw_lines(Picture& picture, const Options& options, const Progress& progress, const LineSink& sink);
+/// Both; the arena is then as it was.
 Status draw_picture(const Scene& scene, const Geometry& geometry, const IlluminanceMaps& maps, const Options& options,
                     const Progress& progress, Arena& arena, const LineSink& sink);
 
 /// What draw_picture takes of the arena, exactly, each block rounded up to 8 bytes; 0 if there is no such camera.
 ///
-///   2 sub_patches channels + max(sub-patches of the largest mesh,
+///   sizeof(Picture) + 2 sub_patches channels + max(sub-patches of the largest mesh,
 ///   8193 + (4 channels + 3) width + 4 rows + 10 drawn + (sizeof(ActiveTriangle) + 16) active +
 ///   32 meshes if there are textures)
 ///

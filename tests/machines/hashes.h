@@ -14,16 +14,16 @@ struct Hashes {
 };
 
 inline constexpr Hashes kHashes[] = {
-    {"box", 0x171f136a5a5c9a8e, 0x94a08a7ee189b563},
+    {"box", 0xe8d08d62db7c49e9, 0x4907714283d9ca20},
     {"sun", 0x9e54c6cd4147ac22, 0x6973181985d668a5},
-    {"shapes", 0xbe116337c4344440, 0x658bffe4443e8449},
-    {"rules", 0x38893717c94b46b8, 0x74822eaf9d05b3d3},
-    {"rule2+", 0xf73cddada5f963fd, 0xd3ae0eafa1c05f76},
-    {"blocks", 0x5da372a67cbf944a, 0xd6b4474e1e283d38},
-    {"planes", 0x19b9cb31c4a677a3, 0x5ae731ca98a7bf83},
-    {"textures", 0x2c70bc679a65218c, 0x08e3428e2656b4b5},
-    {"glass", 0x5a66a6f452d1dada, 0x3ff2e7134b37448e},
-    {"day", 0xcb003e6646715cd8, 0x1a8963a60271e7d4},
+    {"shapes", 0xfd226d969b39a009, 0xe5d97d7200f6e278},
+    {"rules", 0xbba7fac311814be1, 0xa97c4ee6b29333a2},
+    {"rule2+", 0xae6684bae61bfd1e, 0x02058ee4215183ef},
+    {"blocks", 0x58f188843dbe3202, 0x86e971cc73a1a6c2},
+    {"planes", 0x8f1af93ae34d0b8b, 0x76cc9a3e852eac5d},
+    {"textures", 0xcbdb3cfe3740623d, 0x5804eee79f24b372},
+    {"glass", 0xd8703eb4ea4f305a, 0x7d15d6c739952cef},
+    {"day", 0xd94e515e7cd8b47b, 0xf54d3eba49ea3ad5},
 };
 
 }  // namespace machines

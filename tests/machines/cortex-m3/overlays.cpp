@@ -8,7 +8,7 @@ extern "C" {
 extern std::uint32_t stage_code[];
 extern const std::uint32_t load_from[], load_to[], place_from[], place_to[], direct_from[], direct_to[],
     prepare_from[], prepare_to[], ambient_from[], ambient_to[], mirrors_from[], mirrors_to[],
-    map_from[], map_to[], draw_from[], draw_to[];
+    map_from[], map_to[], picture_from[], picture_to[], draw_from[], draw_to[];
 }
 
 namespace machines {
@@ -85,7 +85,10 @@ Status solve(Model& model, const Progress& progress) {
 
 Status draw(Model& model, const Progress& progress, const LineSink& sink) {
   bring(place_from, place_to);
-  const Status status = machines::enter_drawing(model, progress);
+  Status status = machines::enter_drawing(model, progress);
+  if (!status.done()) return status;
+  bring(picture_from, picture_to);
+  status = machines::enter_picture(model);
   if (!status.done()) return status;
   bring(draw_from, draw_to);
   return machines::enter_draw(model, progress, sink);

@@ -32,6 +32,7 @@ DOOR shodo::Status enter_ambient(shodo::Model& model, const shodo::Progress& pro
 DOOR shodo::Status enter_mirrors(shodo::Model& model, const shodo::Progress& progress);
 DOOR shodo::Status enter_again(shodo::Model& model, const shodo::Progress& progress);
 DOOR shodo::Status enter_map(shodo::Model& model, const shodo::Progress& progress);
+DOOR shodo::Status enter_picture(shodo::Model& model);
 DOOR shodo::Status enter_draw(shodo::Model& model, const shodo::Progress& progress, const shodo::LineSink& sink);
 
 }  // namespace machines

@@ -1,4 +1,4 @@
-// One stage of the pipeline as an overlay: compiled with STAGE 1 to 8 it holds all that one of them needs and nothing
+// One stage of the pipeline as an overlay: compiled with STAGE 1 to 9 it holds all that one of them needs and nothing
 // else (doc/determinism.md).
 #include "machines/cortex-m3/overlays.h"
 #include "model.h"
@@ -30,6 +30,8 @@ Status enter_ambient(Model& model, const Progress& progress) { return shodo::sol
 Status enter_mirrors(Model& model, const Progress& progress) { return shodo::send_over_mirrors(model, progress); }
 #elif STAGE == 7
 Status enter_map(Model& model, const Progress& progress) { return shodo::solve_maps(model, progress); }
+#elif STAGE == 8
+Status enter_picture(Model& model) { return shodo::prepare_drawing(model); }
 #else
 Status enter_draw(Model& model, const Progress& progress, const shodo::LineSink& sink) {
   return shodo::finish_drawing(model, progress, sink);
