@@ -268,7 +268,7 @@ TEST(Gather, PanesWeakenWhatComesThroughThemByTheMeanOfTheirChannels) {
     const double open = static_cast<double>(bare.lx[std::size_t{ceiling.first_sub_patch + k} * 3]);
     EXPECT_NEAR(open, in_the_open, 0.005 * in_the_open);
     for (std::uint32_t c = 0; c < 3; ++c) {
-      // The pane's edge lies across a column of patches of the floor, and two to four segments say what of each it hides.
+      // The pane's edge lies across a column of patches of the floor; two to four segments say what of each it hides.
       const double found = static_cast<double>(room.lx[std::size_t{ceiling.first_sub_patch + k} * 3 + c]);
       EXPECT_NEAR(found, expected, 0.03 * in_the_open) << k << ' ' << c;
       square += (found - expected) * (found - expected) / (in_the_open * in_the_open);

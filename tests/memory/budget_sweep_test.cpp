@@ -77,7 +77,8 @@ void sweep(Sweep& sweep, std::uint64_t step, std::uint64_t percent_below = 10) {
   const auto expected = sweep.run(kTwiceTheDefault, smallest);
   ASSERT_TRUE(expected.has_value());
   sweep.done = 0;
-  for (std::uint64_t bytes = smallest - smallest * percent_below / 100; bytes <= kTwiceTheDefault; bytes += bytes / step) {
+  const std::uint64_t first = smallest - smallest * percent_below / 100;
+  for (std::uint64_t bytes = first; bytes <= kTwiceTheDefault; bytes += bytes / step) {
     const auto picture = sweep.run(bytes, none);
     ASSERT_EQ(picture.has_value(), bytes >= smallest) << bytes << " of " << smallest;
     ASSERT_TRUE(!picture.has_value() || *picture == *expected) << bytes << " bytes";

@@ -191,8 +191,8 @@ TEST(BackgroundPicture, GoesOnAroundAsItsMirrorImage) {
     Options options = small_picture();
     options.antialias = 1;
     DrawnRun run("shodo 1\ndisplay 0 100\ncamera c eye 0 0 0 look " + look + " up 0 1 0 fov 70\n"
-                 "background zenith 0 horizon 0 ground 0 picture far.ppm towards -1 0 0 width 90 luminance 100" + around +
-                 "\nmaterial m diffuse 0.5\nobject o\nquad m 0 -6 0  0 -6 1  1 -6 1  1 -6 0\n",
+                 "background zenith 0 horizon 0 ground 0 picture far.ppm towards -1 0 0 width 90 luminance 100" +
+                 around + "\nmaterial m diffuse 0.5\nobject o\nquad m 0 -6 0  0 -6 1  1 -6 1  1 -6 0\n",
                  {{"far.ppm", far}}, options);
     return run.solved().picture();
   };

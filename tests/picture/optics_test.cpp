@@ -213,8 +213,10 @@ std::string shining_box(double x0, double y0, double z0, double x1, double y1, d
     return line + " patches 1 1 sub 1 1\n";
   };
   return "object lamp\n" + quad({x0, y0, z0, x1, y0, z0, x1, y0, z1, x0, y0, z1}) +
-         quad({x0, y1, z0, x0, y1, z1, x1, y1, z1, x1, y1, z0}) + quad({x0, y0, z0, x0, y1, z0, x1, y1, z0, x1, y0, z0}) +
-         quad({x0, y0, z1, x1, y0, z1, x1, y1, z1, x0, y1, z1}) + quad({x0, y0, z0, x0, y0, z1, x0, y1, z1, x0, y1, z0}) +
+         quad({x0, y1, z0, x0, y1, z1, x1, y1, z1, x1, y1, z0}) +
+         quad({x0, y0, z0, x0, y1, z0, x1, y1, z0, x1, y0, z0}) +
+         quad({x0, y0, z1, x1, y0, z1, x1, y1, z1, x0, y1, z1}) +
+         quad({x0, y0, z0, x0, y0, z1, x0, y1, z1, x0, y1, z0}) +
          quad({x1, y0, z0, x1, y1, z0, x1, y1, z1, x1, y0, z1}) + "light l polyhedron object lamp luminance 2500\n";
 }
 
@@ -228,7 +230,8 @@ TEST(PictureOptics, HighlightsOfClosedLampsByTheirOutline) {
                  "quad red 1.9 1.1 0.6  2.4 1.1 0.6  2.4 1.8 0.6  1.9 1.8 0.6\n"
                  "quad glass 2.2 1.2 0.3  2.2 1.2 0.9  2.2 1.9 0.9  2.2 1.9 0.3\n" +
                  shining_box(1.6, 1.9, 0.5, 2.0, 2.2, 0.9), small(64, 48));
-  expect_as_twin(kRoom + kBackWall + kGlossy + "object sheet\nquad grey 1.7 1.5 1.0  2.6 1.5 1.0  2.6 2.25 1.0  1.7 2.25 1.0\n"
+  expect_as_twin(kRoom + kBackWall + kGlossy +
+                 "object sheet\nquad grey 1.7 1.5 1.0  2.6 1.5 1.0  2.6 2.25 1.0  1.7 2.25 1.0\n"
                  "quad grey 2.6 1.5 1.0  1.7 1.5 1.0  1.7 2.25 1.0  2.6 2.25 1.0\n" +
                  shining_box(1.6, 2.1, 0.8, 2.0, 2.4, 1.2), small(64, 48));
 }
@@ -238,10 +241,12 @@ TEST(PictureOptics, HighlightsPastMoreThanHasRoomAreSummedOverPoints) {
   std::string slats = "object slats\n";
   for (int k = 0; k < 200; ++k) {
     const std::string z0 = std::to_string(0.25 + 0.0035 * k), z1 = std::to_string(0.25175 + 0.0035 * k);
-    slats += "quad grey 1.3 1.8 " + z0 + "  2.3 1.8 " + z0 + "  2.3 1.8 " + z1 + "  1.3 1.8 " + z1 + "  patches 1 1 sub 1 1\n";
+    slats += "quad grey 1.3 1.8 " + z0 + "  2.3 1.8 " + z0 + "  2.3 1.8 " + z1 + "  1.3 1.8 " + z1 +
+             "  patches 1 1 sub 1 1\n";
   }
   OpticsScene scene(kRoom + kBackWall + kGlossy + slats +
-                    "light a area quad 1.4 1.9 0.3  2.2 1.9 0.3  2.2 1.9 0.9  1.4 1.9 0.9 luminance 2500\n", small(24, 18));
+                    "light a area quad 1.4 1.9 0.3  2.2 1.9 0.3  2.2 1.9 0.9  1.4 1.9 0.9 luminance 2500\n",
+                    small(24, 18));
   const Outcome outcome = scene.compare();
   // 610 points on 400 edges: shadows are noisy by a few levels, and right in the mean.
   RecordProperty("pixels_off", static_cast<int>(outcome.off));

@@ -184,7 +184,8 @@ Colour OpticsTwin::highlight(const Optics& optics, const Point& at, const Point&
       const Point to = sub(p, at);
       const double d = std::sqrt(dot(to, to)), other = -dot(front, to) / d;
       const double area = std::sqrt(dot(across, across)) / points;
-      if (other > 0) add(light, to, light.strength * other * area / (d * d), 1 - 1e-3);  // not the light itself: the drawn one is off by half a lattice step, and seen at a slant
+      // Not up to the light itself: the drawn one is off by half a lattice step, and seen at a slant.
+      if (other > 0) add(light, to, light.strength * other * area / (d * d), 1 - 1e-3);
     }
   };
   for (const Light& light : scene_.lights) {

@@ -25,8 +25,9 @@ class OpticsTwin {
 
   /// Luminance at a place of the grid: column and row.
   Colour luminance(double x, double y) const { return trace(rays_at(x, y), 8); }
-  /// Of a pixel, as 8-bit sRGB: its sample, or the mean of the surfaces along its rows by what they cover, each shaded in
-  /// the middle of every half or quarter of a pixel; none above white. Moved by so many samples, or parts of a pixel.
+  /// Of a pixel, as 8-bit sRGB: its sample, or the mean of the surfaces along its rows by what they cover, each shaded
+  /// in the middle of every half or quarter of a pixel; none above white. Moved by so many samples, or parts of a
+  /// pixel.
   std::array<int, 3> level(std::uint32_t px, std::uint32_t py, double dx = 0, double dy = 0) const;
 
   int light_points = 2000;  // of an area light
