@@ -139,9 +139,9 @@ void SubPatch::sample_finely(std::uint32_t l, const Received* probed, bool near,
   for (std::uint32_t k = 0; k < kGridSamples; ++k) {
     std::uint32_t probe = elsewhere ? probes_.count : 1;
     while (probe < probes_.count && probes_.grid_index[probe] != k) ++probe;
-    received[k] = probe < probes_.count ? probed[probe]
-                  : elsewhere           ? sources_.receive(l, receiver_, fine_sample(k), near)
-                                        : sources_.receive(l, receiver_, at(grid_.point(k)), near);
+    received[k] = probe < probes_.count
+                      ? probed[probe]
+                      : sources_.receive(l, receiver_, elsewhere ? fine_sample(k) : at(grid_.point(k)), near);
     weight += grid_.weight(k);
     lux += grid_.weight(k) * received[k].lux;
   }

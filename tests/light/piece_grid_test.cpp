@@ -5,20 +5,13 @@
 
 #include <cmath>
 
+#include "support/pieces.h"
+
 namespace shodo {
 namespace {
 
-Piece quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  Piece piece;
-  piece.corner[0] = a;
-  piece.corner[1] = b;
-  piece.corner[2] = c;
-  piece.corner[3] = d;
-  return piece;
-}
-
 Piece triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  Piece piece = quad(a, b, c, c);
+  Piece piece = quad_piece(a, b, c, c);
   piece.corners = 3;
   return piece;
 }
@@ -41,7 +34,7 @@ void expect_near(const Vec3& a, const Vec3& b, double error) {
 }
 
 TEST(PieceGrid, HasTheCentresOfEqualCells) {
-  const Piece piece = quad({0, 0, 1}, {4, 0, 1}, {4, 2, 1}, {0, 2, 1});
+  const Piece piece = quad_piece({0, 0, 1}, {4, 0, 1}, {4, 2, 1}, {0, 2, 1});
   const PieceGrid grid(piece, 4);
   ASSERT_EQ(grid.count(), 16u);
   expect_near(grid.point(0), {0.5, 0.25, 1}, 1e-15);
@@ -61,7 +54,7 @@ TEST(PieceGrid, HasTheCentroidsOfEqualTriangles) {
 }
 
 TEST(PieceGrid, NamesTheSamplesNextToTheCorners) {
-  const Piece four = quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}),
+  const Piece four = quad_piece({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}),
               three = triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   const PieceGrid square(four, 4), half(three, 4);
   for (std::uint32_t k = 0; k < 4; ++k) {
@@ -76,7 +69,7 @@ TEST(PieceGrid, NamesTheSamplesNextToTheCorners) {
 }
 
 TEST(PieceGrid, KeepsToTheMiddleHalfWhenAsked) {
-  const Piece four = quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}),
+  const Piece four = quad_piece({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}),
               three = triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   for (const Piece& piece : {four, three}) {
     const PieceGrid wide(piece, 4), narrow(piece, 4, true);
@@ -89,7 +82,7 @@ TEST(PieceGrid, KeepsToTheMiddleHalfWhenAsked) {
 TEST(PieceGrid, WeightsATrapezoidByArea) {
   // The centroid of a trapezoid of sides 6 and 2 and height 3 lies 3/3 (6 + 4)/(6 + 2) from the longer one; midpoints
   // of four rows miss the second moment by 1/16.
-  const Piece piece = quad({-3, 0, 0}, {3, 0, 0}, {1, 3, 0}, {-1, 3, 0});
+  const Piece piece = quad_piece({-3, 0, 0}, {3, 0, 0}, {1, 3, 0}, {-1, 3, 0});
   expect_near(mean(PieceGrid(piece, 4)), {0, 1.25, 0}, 0.02);
   expect_near(mean(PieceGrid(piece, 64)), {0, 1.25, 0}, 1e-4);
   double sum = 0;
@@ -102,7 +95,7 @@ TEST(PieceGrid, WeightsTheHalvesOfAConcavePiece) {
   // Reflex at corner 1; the cut from there to corner 3 leaves halves of 1.5 and 4.5. Then the same counted from
   // corner 3.
   const Vec3 c[4] = {{-1, 2, 0}, {0, 0, 0}, {3, 2, 0}, {0, -3, 0}};
-  Piece from_1_to_3 = quad(c[0], c[1], c[2], c[3]), from_0_to_2 = quad(c[3], c[0], c[1], c[2]);
+  Piece from_1_to_3 = quad_piece(c[0], c[1], c[2], c[3]), from_0_to_2 = quad_piece(c[3], c[0], c[1], c[2]);
   from_1_to_3.concave = from_1_to_3.cut = from_0_to_2.cut = true;
   const Vec3 first = (1.0 / 3) * (c[0] + c[1] + c[3]), second = (1.0 / 3) * (c[2] + c[1] + c[3]);
   for (const Piece& piece : {from_1_to_3, from_0_to_2}) {
@@ -140,7 +133,7 @@ std::uint32_t exact_degree(const Piece& piece, bool fine) {
 }
 
 TEST(PieceGrid, RulesAreExactToTheirDegreeAndNoFurther) {
-  const Piece four = quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}),
+  const Piece four = quad_piece({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}),
               three = triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   EXPECT_EQ(exact_degree(four, false), 3u);
   EXPECT_EQ(exact_degree(four, true), 5u);

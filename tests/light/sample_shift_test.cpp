@@ -7,24 +7,17 @@
 #include <cmath>
 #include <vector>
 
+#include "support/pieces.h"
+
 namespace shodo {
 namespace {
 
 const Lattice kLattice = lattice_for(1);
 
-Piece quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  Piece piece;
-  piece.corner[0] = a;
-  piece.corner[1] = b;
-  piece.corner[2] = c;
-  piece.corner[3] = d;
-  return piece;
-}
-
 /// A square of 1/40 on the floor, whose corner is at (x, y).
 Piece square(double x, double y) {
   const double e = 1.0 / 40;
-  return quad({x, y, 0.25}, {x + e, y, 0.25}, {x + e, y + e, 0.25}, {x, y + e, 0.25});
+  return quad_piece({x, y, 0.25}, {x + e, y, 0.25}, {x + e, y + e, 0.25}, {x, y + e, 0.25});
 }
 
 SampleShift shift_of(const Piece& piece) { return {kLattice, odd_point(kLattice, piece.centre()), piece}; }
@@ -99,13 +92,13 @@ TEST(SampleShift, AMirroredOrTurnedSceneHasMirroredOrTurnedSamples) {
     const auto expect_image = [&](auto map, bool reversed) {
       Vec3 corner[4];
       for (int k = 0; k < 4; ++k) corner[k] = map(piece.corner[reversed ? (4 - k) % 4 : k]);
-      const std::vector<Vec3> images = samples(quad(corner[0], corner[1], corner[2], corner[3]));
+      const std::vector<Vec3> images = samples(quad_piece(corner[0], corner[1], corner[2], corner[3]));
       for (const Vec3& p : points) EXPECT_TRUE(has(images, map(p)));
     };
     expect_image(turned, false);
     expect_image(mirrored, true);
     expect_image(swapped, true);
-    const Piece from_elsewhere = quad(piece.corner[2], piece.corner[3], piece.corner[0], piece.corner[1]);
+    const Piece from_elsewhere = quad_piece(piece.corner[2], piece.corner[3], piece.corner[0], piece.corner[1]);
     for (const Vec3& p : samples(from_elsewhere)) EXPECT_TRUE(has(points, p));
   }
 }
