@@ -281,14 +281,6 @@ Status draw_lines(Picture& picture, const Options& options, const Progress& prog
   return {};
 }
 
-Status draw_picture(const Scene& scene, const Geometry& geometry, const IlluminanceMaps& maps, const Options& options,
-                    const Progress& progress, Arena& arena, const LineSink& sink) {
-  const ArenaScratch scratch(arena);
-  Picture* picture = nullptr;
-  const Status status = prepare_picture(scene, geometry, maps, options, arena, picture);
-  return status.done() ? draw_lines(*picture, options, progress, sink) : status;
-}
-
 std::uint64_t picture_bytes(const Scene& scene, const Geometry& geometry, const Options& options) {
   const Camera* camera = find_camera(scene, options.camera);
   if (camera == nullptr) return 0;

@@ -33,11 +33,8 @@ Status prepare_picture(const Scene& scene, const Geometry& geometry, const Illum
                        const Options& options, Arena& arena, Picture*& picture);
 /// Draws a prepared picture, line by line. Errors: kInterrupted.
 Status draw_lines(Picture& picture, const Options& options, const Progress& progress, const LineSink& sink);
-/// Both; the arena is then as it was.
-Status draw_picture(const Scene& scene, const Geometry& geometry, const IlluminanceMaps& maps, const Options& options,
-                    const Progress& progress, Arena& arena, const LineSink& sink);
 
-/// What draw_picture takes of the arena, exactly, each block rounded up to 8 bytes; 0 if there is no such camera.
+/// What prepare_picture takes of the arena, exactly, each block rounded up to 8 bytes; 0 if there is no such camera.
 ///
 ///   sizeof(Picture) + 2 sub_patches channels + max(sub-patches of the largest mesh,
 ///   8193 + (4 channels + 3) width + 4 rows + 10 drawn + (sizeof(ActiveTriangle) + 16) active +

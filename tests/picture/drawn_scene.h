@@ -8,9 +8,9 @@
 #include <random>
 #include <vector>
 
-#include "picture/picture.h"
 #include "picture/view.h"
 #include "picture/visible_lines.h"
+#include "support/picture_stage.h"
 #include "support/picture_twin.h"
 
 namespace shodo {

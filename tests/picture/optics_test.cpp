@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "picture/picture.h"
 #include "picture/view.h"
 #include "support/optics_twin.h"
+#include "support/picture_stage.h"
 #include "support/kept_scene.h"
 #include "support/smooth_light.h"
 #include "visibility/geometry.h"

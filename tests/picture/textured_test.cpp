@@ -8,11 +8,11 @@
 
 #include "model.h"
 #include "picture/display.h"
-#include "picture/picture.h"
 #include "picture/textured.h"
 #include "picture/view.h"
 #include "support/collected_lines.h"
 #include "support/files.h"
+#include "support/picture_stage.h"
 #include "support/picture_twin.h"
 #include "support/kept_scene.h"
 #include "support/smooth_light.h"
