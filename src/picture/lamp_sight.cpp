@@ -45,10 +45,15 @@ struct LampSight::Screen {
 };
 
 struct LampSight::Work {
+  Work(const HighlightLook& look, const NearTriangles& near, const LampFace* face)
+      : look(look), near(near), face(face) {}
+
   const HighlightLook& look;
   NearTriangles near;
   const LampFace* face;  // null: all triangles are before the lamp
-  double least_size;     // of a piece
+  double least_size = 0;  // of a piece
+  LampFrame frame;
+  CellBox box[kMostNear];  // of triangles
 };
 
 bool LampSight::start(const Scene& scene, const Geometry& geometry, const RayTree& tree, const Lamps& lamps,
@@ -161,6 +166,7 @@ bool LampSight::screen_of(std::uint32_t t, const Work& work, Screen& screen) con
 /// The next triangle that cuts a piece; false if nothing does any more.
 bool LampSight::find_cut(const Work& work, Part& piece, Screen& screen) const {
   for (; piece.next < work.near.count; ++piece.next) {
+    if (piece.box.apart(work.box[piece.next])) continue;
     if (screen_of(work.near.triangle[piece.next], work, screen) && !screen.is_beside(piece.polygon)) return true;
   }
   return false;
@@ -182,10 +188,10 @@ bool LampSight::cut(const Screen& screen, const Work& work, std::uint32_t& count
     if (last) break;
     outside.next = here.next;
     for (std::uint32_t c = 0; c < 3; ++c) outside.light[c] = here.light[c];
-    if (measure(outside) > work.least_size) ++count;
+    if (measure(outside, work)) ++count;
   }
   for (std::uint32_t c = 0; c < 3 && !opaque; ++c) here.light[c] = behind[c];
-  if (!(measure(here) > work.least_size)) here = pieces_[--count];
+  if (!measure(here, work)) here = pieces_[--count];
   for (std::uint32_t k = first + 1; k < count; ++k) {
     for (std::uint32_t at = k; at > first && pieces_[at].size > pieces_[at - 1].size; --at) {
       const Part other = pieces_[at];
@@ -196,13 +202,21 @@ bool LampSight::cut(const Screen& screen, const Work& work, std::uint32_t& count
   return true;
 }
 
-/// The square of twice the area of what it is a piece of.
-double LampSight::measure(Part& piece) {
+/// Twice the area's vector of what it is a piece of, seen from the point.
+Vec3 LampSight::across(const DirectionPolygon& polygon) {
   Vec3 sum;
-  for (std::uint32_t k = 0; k < piece.polygon.count; ++k) {
-    sum = sum + cross(piece.polygon.corner[k], piece.polygon.corner[k + 1 < piece.polygon.count ? k + 1 : 0]);
+  for (std::uint32_t k = 0; k < polygon.count; ++k) {
+    sum = sum + cross(polygon.corner[k], polygon.corner[k + 1 < polygon.count ? k + 1 : 0]);
   }
-  return piece.size = length_squared(sum);
+  return sum;
+}
+
+/// Whether it is large enough to be looked at.
+bool LampSight::measure(Part& piece, const Work& work) {
+  piece.size = length_squared(across(piece.polygon));
+  if (!(piece.size > work.least_size)) return false;
+  piece.box = work.frame.box({piece.polygon.corner, piece.polygon.count});
+  return true;
 }
 
 /// Of the polygon of pieces_[0], which the surface's plane may cut.
@@ -212,12 +226,16 @@ bool LampSight::add_polygon(Work& work, double (&sum)[3]) const {
   if (whole.polygon.count < 3) return true;
   for (double& light : whole.light) light = 1;
   whole.next = 0;
-  work.least_size = kLeastPiece * kLeastPiece * measure(whole);
+  whole.box = CellBox::all();
+  const Vec3 view = across(whole.polygon);
+  work.least_size = kLeastPiece * kLeastPiece * (whole.size = length_squared(view));
   // Those that cut the whole: of the hull of a point and a box most lies beside the lamp.
   std::uint32_t cutting = 0;
   for (std::uint32_t k = 0; k < work.near.count; ++k) {
     Screen screen;
     if (!screen_of(work.near.triangle[k], work, screen) || screen.is_beside(whole.polygon)) continue;
+    if (cutting == 0) work.frame.start(whole.polygon, view);
+    work.box[cutting] = work.frame.box(screen.corner);
     work.near.triangle[cutting++] = work.near.triangle[k];
   }
   work.near.count = cutting;
@@ -240,7 +258,7 @@ bool LampSight::add_polygon(Work& work, double (&sum)[3]) const {
 
 bool LampSight::add_outline(const Lamp& lamp, const HighlightLook& look, Lamps::FaceSet seen,
                             const NearTriangles& near, double (&sum)[3]) const {
-  Work work{look, near, nullptr, 0};
+  Work work(look, near, nullptr);
   return lamps_->outline(lamp, seen, look.point, pieces_[0].polygon) && add_polygon(work, sum);
 }
 
@@ -255,7 +273,7 @@ bool LampSight::add_face(const Lamp& lamp, const LampFace& face, const Highlight
     for (std::uint32_t c = part.corners; c-- > 0;) {
       if (!pieces_[0].polygon.push(part.corner[c] - look.point)) return false;
     }
-    Work work{look, near, &face, 0};
+    Work work(look, near, &face);
     if (part.corners != 0 && !add_polygon(work, all)) return false;
   }
   for (std::uint32_t c = 0; c < 3; ++c) sum[c] += all[c];

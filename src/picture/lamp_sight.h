@@ -5,6 +5,7 @@
 // off the polygon along their sides: what remains is a set of convex polygons, which nobody hides, or which panes
 // weaken. So shadows have exact edges, in doubles; penumbrae are areas and no samples of them. Of the pieces that a
 // triangle leaves the smallest goes on first, so that few wait at a time. Pieces below 2^-24 of the lamp are left out.
+// Which triangles a piece can't meet boxes tell (lamp_frame.h).
 //
 // Candidates are found once for a lamp, in integers: what meets the hull of the point and the lamp's box
 // (visibility/shaft.h) and lies neither behind the surface nor beyond the lamp. A triangle is before a lamp with an
@@ -21,6 +22,7 @@
 #include "base/arena.h"
 #include "picture/highlight_look.h"
 #include "picture/lamp.h"
+#include "picture/lamp_frame.h"
 #include "picture/ray_tree.h"
 
 namespace shodo {
@@ -29,8 +31,9 @@ class LampSight {
   struct Part {
     DirectionPolygon polygon;
     double light[3];     // of the light that arrives
-    double size;         // measure()
+    double size;         // of across(), squared
     std::uint32_t next;  // index of the first near triangle that hasn't been cut off
+    CellBox box;
   };
 
  public:
@@ -67,7 +70,8 @@ class LampSight {
   bool screen_of(std::uint32_t triangle, const Work& work, Screen& screen) const;
   bool find_cut(const Work& work, Part& piece, Screen& screen) const;
   bool cut(const Screen& screen, const Work& work, std::uint32_t& count) const;
-  static double measure(Part& piece);
+  static Vec3 across(const DirectionPolygon& polygon);
+  static bool measure(Part& piece, const Work& work);
   bool add_polygon(Work& work, double (&sum)[3]) const;
 
   const Scene* scene_ = nullptr;
