@@ -28,6 +28,9 @@ struct LatticeVector {
 constexpr LatticeVector operator-(const LatticePoint& a, const LatticePoint& b) {
   return {std::int64_t{a.x} - b.x, std::int64_t{a.y} - b.y, std::int64_t{a.z} - b.z};
 }
+constexpr Vec3 vector_of(const LatticeVector& v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
 constexpr std::int64_t dot(const LatticeVector& a, const LatticeVector& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }

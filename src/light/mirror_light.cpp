@@ -48,8 +48,7 @@ bool MirrorLight::take(Arena& arena) {
   for_mirrors(scene, geometry, [&](std::uint32_t t, std::uint32_t mesh, std::uint32_t cell, std::uint32_t optics) {
     const Triangle& triangle = geometry.triangles[t];
     Mirror& mirror = mirrors_[next++];
-    mirror.normal = normalised({static_cast<double>(triangle.n.x), static_cast<double>(triangle.n.y),
-                                static_cast<double>(triangle.n.z)});
+    mirror.normal = normalised(vector_of(triangle.n));
     mirror.plane = dot(mirror.normal, scene_point(geometry.lattice, triangle.a));
     mirror.triangle = t;
     mirror.mesh = mesh;

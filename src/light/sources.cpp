@@ -12,10 +12,6 @@ constexpr double kFieldRadii = 4;
 /// A sub-patch likewise, if its centre's factor is taken for its mean: within 1/1000.
 constexpr double kCentreRadii = 12;
 
-Vec3 unit_of(const LatticeVector& v) {
-  return normalised({static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)});
-}
-
 }  // namespace
 
 Status Sources::prepare(Arena& arena) {
@@ -40,7 +36,7 @@ Status Sources::prepare(Arena& arena) {
     if (light(l).kind == LightKind::kPoint) source.ends.include(geometry_->light_points[l]);
     if (light(l).kind != LightKind::kSun) continue;
     source.to_sun = lattice_direction(-light(l).towards);
-    source.to_sun_unit = unit_of(source.to_sun);
+    source.to_sun_unit = normalised(vector_of(source.to_sun));
   }
   return {};
 }

@@ -16,10 +16,6 @@ constexpr double kShort = 8;          // times a way between samples: the least 
 constexpr NearTriangles kNothingNear{};
 constexpr std::uint32_t kPoints = 610, kPointStep = 377;  // neighbours of Fibonacci's
 
-Vec3 vector_of(const LatticeVector& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
-
 LatticeBox box_of(const LatticePoint& p) { return {{p.x, p.y, p.z}, {p.x, p.y, p.z}}; }
 
 /// An odd point 16 steps, more than mending moves a corner, in front of a face, on its own: what blocks may be gone

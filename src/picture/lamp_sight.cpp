@@ -140,10 +140,7 @@ bool LampSight::screen_of(std::uint32_t t, const Work& work, Screen& screen) con
   if (side == 0) return false;  // from its edge
   const double step = geometry_->lattice.step(), sign = side > 0 ? -1 : 1;
   Vec3(&v)[3] = screen.corner;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const LatticeVector way = drawn.vertex[k] - work.look.from;
-    v[k] = {step * static_cast<double>(way.x), step * static_cast<double>(way.y), step * static_cast<double>(way.z)};
-  }
+  for (std::size_t k = 0; k < 3; ++k) v[k] = step * vector_of(drawn.vertex[k] - work.look.from);
   for (std::size_t k = 0; k < 3; ++k) screen.side[k] = sign * cross(v[k], v[(k + 1) % 3]);
   screen.count = 3;
   if (work.face == nullptr) return true;

@@ -31,10 +31,6 @@ Between between(std::int32_t coordinate, std::int32_t count, bool wraps) {
   return {inside(low), inside(low + 1), static_cast<std::uint32_t>(from_centre & 4095)};
 }
 
-Vec3 real(const LatticeVector& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
-
 LatticeVector normal_of(const DrawnTriangle& t) { return cross(t.vertex[1] - t.vertex[0], t.vertex[2] - t.vertex[0]); }
 
 /// A map coordinate of a hit, sub-patches.
@@ -132,8 +128,8 @@ void LightPaths::trace(std::int32_t column, std::uint32_t row, std::uint32_t tri
   direction_ = grid_->direction(column, row);
   Path path{{grid_->eye, ray_direction(direction_)}, {kWholePart, kWholePart, kWholePart}, 0, kNoHit, false, {}, 0, 1};
   if (record != nullptr || !textures_.empty()) {
-    direction_length_ = length(real(direction_));
-    path.speed = length(real(path.ray.direction));
+    direction_length_ = length(vector_of(direction_));
+    path.speed = length(vector_of(path.ray.direction));
   }
   RayHit first;
   // At an edge the rounded ray may miss what the sample sees: it meets something else then, or on a seam of a pane the
@@ -216,7 +212,7 @@ bool LightPaths::pass(const RayHit& hit, Path& path, FineColour& sum, PathRecord
       way.reflected = true;
       if (record != nullptr || !textures_.empty()) {
         way.length = way_to(hit, path);
-        way.speed = length(real(direction));
+        way.speed = length(vector_of(direction));
       }
       waiting_[waiting_count_++] = way;
     }
@@ -267,13 +263,13 @@ void LightPaths::add_textured(const DrawnTriangle& drawn, const RayHit& hit, con
 /// Texels to the neighbours in the row and the column, the more of them.
 double LightPaths::texture_step(const DrawnTriangle& drawn, const RayHit& hit, const Path& path,
                                 const TextureShade& shade) const {
-  Vec3 way[3] = {real(direction_), real(grid_->across()), real(grid_->down())};
+  Vec3 way[3] = {vector_of(direction_), vector_of(grid_->across()), vector_of(grid_->down())};
   for (std::uint32_t k = 0; k < path.reflections; ++k) {
-    const Vec3 n = real(normal_of(geometry_->drawn[path.mirror[k]]));
+    const Vec3 n = vector_of(normal_of(geometry_->drawn[path.mirror[k]]));
     const double twice = 2 / dot(n, n);
     for (Vec3& v : way) v = v - (twice * dot(n, v)) * n;
   }
-  const Vec3 to_b = real(drawn.vertex[1] - drawn.vertex[0]), to_c = real(drawn.vertex[2] - drawn.vertex[0]);
+  const Vec3 to_b = vector_of(drawn.vertex[1] - drawn.vertex[0]), to_c = vector_of(drawn.vertex[2] - drawn.vertex[0]);
   const Vec3 n = cross(to_b, to_c);
   const double facing = dot(n, way[0]);
   if (facing == 0) return kCoarsestStep;

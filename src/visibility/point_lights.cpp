@@ -21,8 +21,7 @@ bool carries(const Triangle& triangle, const LatticePoint& p) {
 /// Whether two normals are opposite to about 8 degrees.
 bool back_to_back(const LatticeVector& a, const LatticeVector& b) {
   constexpr double kCosine = 0.99;
-  const Vec3 x{static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
-  const Vec3 y{static_cast<double>(b.x), static_cast<double>(b.y), static_cast<double>(b.z)};
+  const Vec3 x = vector_of(a), y = vector_of(b);
   return dot(x, y) < -kCosine * length(x) * length(y);
 }
 

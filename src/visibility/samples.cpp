@@ -104,9 +104,7 @@ LatticePoint in_front(std::span<const Triangle> triangles, LatticePoint p) {
 /// A face that another touches: over what that sticks out of it.
 LatticePoint raised(std::span<const Triangle> triangles, std::uint32_t raise, LatticePoint p) {
   Vec3 normal;
-  for (const Triangle& t : triangles) {
-    normal = normal + Vec3{static_cast<double>(t.n.x), static_cast<double>(t.n.y), static_cast<double>(t.n.z)};
-  }
+  for (const Triangle& t : triangles) normal = normal + vector_of(t.n);
   normal = normalised(normal);
   const double half[3] = {0.5 * raise * normal.x, 0.5 * raise * normal.y, 0.5 * raise * normal.z};
   for (std::uint32_t k = 0; k < 3; ++k) {

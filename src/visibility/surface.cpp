@@ -101,8 +101,7 @@ LatticeVector ring_normal(const Placement& placement, std::uint32_t polygon) {
 }
 
 double ring_area(const Placement& placement, std::uint32_t polygon) {
-  const LatticeVector n = ring_normal(placement, polygon);
-  return length({static_cast<double>(n.x), static_cast<double>(n.y), static_cast<double>(n.z)});
+  return length(vector_of(ring_normal(placement, polygon)));
 }
 
 Reach reach_of(const Placement& placement, const PolygonTree& tree, const SurfaceTriangle& plane, std::uint32_t a,
