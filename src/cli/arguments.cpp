@@ -231,7 +231,8 @@ constexpr OptionRule kOptions[] = {
     {"--patch", "SIZE", kForAll, "a number from 1e-30 to 1e30",
      "longest edge of a patch where the scene gives no counts, scene units (1/24 of the diagonal)",
      [](std::string_view t, Arguments& a) { return number_in(t, kSmallest, kLargest, a.options.patch_size); }},
-    {"--sub-patch", "SIZE", kForAll, "a number from 1e-30 to 1e30", "the same of a sub-patch (a third of the patch)",
+    {"--sub-patch", "SIZE", kForAll, "a number from 1e-30 to 1e30",
+     "the same of a sub-patch; finer near lights (a third of the patch)",
      [](std::string_view t, Arguments& a) { return number_in(t, kSmallest, kLargest, a.options.sub_patch_size); }},
     {"--refine", "K", kForAll, "a number from 0.001 to 1000", "patch counts times K along each edge (1)",
      [](std::string_view t, Arguments& a) { return number_in(t, 0.001, 1000, a.options.refine); }},
@@ -266,7 +267,8 @@ constexpr OptionRule kOptions[] = {
        a.options.camera = t;
        return !t.empty();
      }},
-    {"--false-colour", "auto|LOW,HIGH", kForRender, "auto, or LOW,HIGH in lux, LOW from 0, HIGH from 0.001 to 1e9 and above LOW",
+    {"--false-colour", "auto|LOW,HIGH", kForRender,
+     "auto, or LOW,HIGH in lux, LOW from 0, HIGH from 0.001 to 1e9 and above LOW",
      "illuminance as colours, with a legend: a logarithmic scale, or from LOW 0 a linear one", take_false_colour},
     {"--isolux", "auto|LIST", kForRender, "auto, or up to 100 ascending numbers from 0.001 to 1e9 with commas between",
      "lines of equal illuminance with their values, over the picture or its false colours", take_isolux},
