@@ -2,20 +2,13 @@
 
 #include <sys/stat.h>
 
-#include <climits>
-#include <cstdlib>
 #include <vector>
+
+#include "cli/output.h"
 
 namespace shodo {
 
 namespace {
-
-std::string real_path(const std::string& name) {
-  char* path = realpath(name.c_str(), nullptr);
-  const std::string result = path == nullptr ? "" : path;
-  std::free(path);
-  return result;
-}
 
 /// The one path of a file or folder, or of one that may be made there; empty if there is none, and for what isn't a
 /// file or folder.

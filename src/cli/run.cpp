@@ -44,7 +44,10 @@ Status Run::load_into(std::size_t bytes) {
     std::snprintf(status.message, sizeof status.message, "the system refuses %s of memory", size_text(bytes).c_str());
     return status;
   }
-  return shodo::load(arguments_.scene, text_, files_.reader(), arguments_.options, memory_->start(), bytes, model_);
+  Status status =
+      shodo::load(arguments_.scene, text_, files_.reader(), arguments_.options, memory_->start(), bytes, model_);
+  files_.explain(status);
+  return status;
 }
 
 int Run::load_in_budget() {

@@ -392,7 +392,7 @@ TEST(Difference, RefusesWhatItCanNotCompare) {
 TEST(Measured, WrongWordsAreRefused) {
   const std::string scene = test_scene("sun.scn");
   const std::pair<Running::Words, std::string> cases[] = {
-      {{"--false-colour", "red"}, "--false-colour: expected auto, or two numbers"},
+      {{"--false-colour", "red"}, "--false-colour: expected auto, or LOW,HIGH in lux"},
       {{"--false-colour", "5,5"}, "found '5,5'"},
       {{"--false-colour", "-1,5"}, "found '-1,5'"},
       {{"--isolux", "0"}, "found '0'"},
