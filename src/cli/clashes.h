@@ -1,4 +1,5 @@
-// Names on the command line that lead to one file: an output would take the place of what is read, or of another output.
+// Names on the command line that lead to one file: an output would take the place of what is read, or of another
+// output.
 #pragma once
 
 #include <string>
