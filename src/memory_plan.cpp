@@ -133,7 +133,7 @@ PartText plan_part_text(PlanPart part) {
        "9 a patch + 8 a row of sub-patches, of the largest mesh; --gather: surfaces + possible blockers + 4 c blocks + "
        "2 a node + 16,384 + 4 facets + 48 objects + 9,000"},
       {"drawing, or placing again",
-       "1,952 + 2 c s + 8193 + (4 c + 3) width + 4 rows + 10 drawn + 208 active triangles; textures: 4/3 of their "
+       "1,952 + 2 c s + 8,193 + (4 c + 3) width + 4 rows + 10 drawn + 208 active triangles; textures: 4/3 of their "
        "texels"},
   };
   static_assert(sizeof kTexts / sizeof(PartText) == static_cast<std::size_t>(PlanPart::kDrawing) + 1);

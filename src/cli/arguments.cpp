@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -37,7 +36,7 @@ constexpr CommandName kCommands[] = {
     {"report", Command::kReport, kForReport, "report SCENE... -o DIR",
      "the paper's table, and speed against error: HTML, Markdown, CSV"},
     {"difference", Command::kDifference, kForDifference, "difference A B [-o FILE.png|.ppm]",
-     "two pictures (PPM) or maps (PFM): mean, root mean square, largest; FILE shows where"},
+     "two pictures (PPM, PNG) or maps (PFM): mean, root mean square, largest; FILE shows where"},
     {"check", Command::kCheck, kForCheck, "check SCENE",
      "what will be modelled, the lattice step, the memory it takes"},
 };
@@ -205,8 +204,8 @@ bool take_text(std::string_view text, std::string& value) {
   return !text.empty();
 }
 
-constexpr double kLargest = std::numeric_limits<double>::max();
-constexpr double kSmallest = std::numeric_limits<double>::min();
+// As coordinates in a scene file.
+constexpr double kLargest = 1e30, kSmallest = 1e-30;
 
 struct OptionRule {
   std::string_view name;
@@ -229,10 +228,11 @@ constexpr OptionRule kOptions[] = {
      take_rules},
     {"--tolerance", "REL", kForAll, "a number from 1e-12 to 1", "the solver's bound, of the largest illuminance (1e-4)",
      [](std::string_view t, Arguments& a) { return number_in(t, 1e-12, 1, a.options.tolerance); }},
-    {"--patch", "SIZE", kForAll, "a number above 0",
+    {"--patch", "SIZE", kForAll, "a number from 1e-30 to 1e30",
      "longest edge of a patch where the scene gives no counts, scene units (1/24 of the diagonal)",
      [](std::string_view t, Arguments& a) { return number_in(t, kSmallest, kLargest, a.options.patch_size); }},
-    {"--sub-patch", "SIZE", kForAll, "a number above 0", "the same of a sub-patch (a third of the patch)",
+    {"--sub-patch", "SIZE", kForAll, "a number from 1e-30 to 1e30",
+     "the same of a sub-patch; finer near lights (a third of the patch)",
      [](std::string_view t, Arguments& a) { return number_in(t, kSmallest, kLargest, a.options.sub_patch_size); }},
     {"--refine", "K", kForAll, "a number from 0.001 to 1000", "patch counts times K along each edge (1)",
      [](std::string_view t, Arguments& a) { return number_in(t, 0.001, 1000, a.options.refine); }},
@@ -267,9 +267,10 @@ constexpr OptionRule kOptions[] = {
        a.options.camera = t;
        return !t.empty();
      }},
-    {"--false-colour", "auto|LOW,HIGH", kForRender, "auto, or two numbers of lux, LOW from 0, HIGH above it",
+    {"--false-colour", "auto|LOW,HIGH", kForRender,
+     "auto, or LOW,HIGH in lux, LOW from 0, HIGH from 0.001 to 1e9 and above LOW",
      "illuminance as colours, with a legend: a logarithmic scale, or from LOW 0 a linear one", take_false_colour},
-    {"--isolux", "auto|LIST", kForRender, "auto, or up to 100 ascending numbers of lux with commas between",
+    {"--isolux", "auto|LIST", kForRender, "auto, or up to 100 ascending numbers from 0.001 to 1e9 with commas between",
      "lines of equal illuminance with their values, over the picture or its false colours", take_isolux},
     {"--show", "patches|sub-patches", kForRender, "patches or sub-patches", "their borders, over the picture",
      take_show},
@@ -395,9 +396,17 @@ class Words {
       check_difference();
     } else if (arguments_.scene.empty()) {
       mistake_ = std::string(command_->name) + ": expected a scene file, found none";
-    } else if ((command_->bit & kForOutput) != 0) {
-      check_outputs();
+    } else {
+      check_gather();
+      if (mistake_.empty() && (command_->bit & kForOutput) != 0) check_outputs();
     }
+  }
+
+  /// Found in vain: the paper's rules have the paper's interpolation.
+  void check_gather() {
+    const Options& o = arguments_.options;
+    if (!o.gather || o.gathers()) return;
+    mistake_ = "--gather works without --rules or with blocks alone, found 1, 2, 2+ or 3 beside it";
   }
 
   void check_difference() {

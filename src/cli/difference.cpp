@@ -100,8 +100,11 @@ int difference(const Arguments& arguments) {
   if (const int status = read(arguments.scenes[0], a); status != 0) return status;
   if (const int status = read(arguments.scenes[1], b); status != 0) return status;
   if (a.map != b.map || a.width != b.width || a.height != b.height || a.channels != b.channels) {
-    std::fprintf(stderr, "shodo: difference: expected two of one kind and size, found %u x %u x %u and %u x %u x %u\n",
-                 a.width, a.height, a.channels, b.width, b.height, b.channels);
+    const auto kind = [](const ValueGrid& grid) { return grid.map ? "map" : "picture"; };
+    std::fprintf(stderr,
+                 "shodo: difference: expected two of one kind and size, found a %s of %u x %u x %u and a %s of "
+                 "%u x %u x %u\n",
+                 kind(a), a.width, a.height, a.channels, kind(b), b.width, b.height, b.channels);
     return static_cast<int>(StatusCode::kUsage);
   }
   const Difference d = difference_of(a, b);

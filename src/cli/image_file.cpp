@@ -1,5 +1,6 @@
 #include "cli/image_file.h"
 
+#include <algorithm>
 #include <climits>
 #include <cstdlib>
 #include <cstring>
@@ -57,10 +58,9 @@ void* zeroed_again(void* block, std::size_t before, std::size_t bytes) {
 namespace shodo {
 
 bool is_image_name(std::string_view path) {
-  for (const std::string_view ending : {".png", ".jpg", ".jpeg", ".tga"}) {
-    if (path.ends_with(ending)) return true;
-  }
-  return false;
+  std::string ending(path.substr(std::min(path.rfind('.'), path.size())));
+  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return ending == ".png" || ending == ".jpg" || ending == ".jpeg" || ending == ".tga";
 }
 
 bool decode_image(std::string_view file, std::string& ppm, int most) {

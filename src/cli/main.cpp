@@ -7,6 +7,7 @@
 #include <new>
 #include <string>
 
+#include "cli/clashes.h"
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "cli/watch.h"
@@ -35,7 +36,7 @@ int print(const std::string& text) {
 int run(int count, char** words) {
   Arguments arguments;
   std::string mistake;
-  if (!parse_arguments(count, words, arguments, mistake)) {
+  if (!parse_arguments(count, words, arguments, mistake) || !outputs_apart(arguments, mistake)) {
     std::fprintf(stderr, "shodo: %s (see shodo --help)\n", mistake.c_str());
     return 2;
   }

@@ -9,6 +9,7 @@
 #include <climits>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 
 namespace shodo {
 
@@ -18,11 +19,8 @@ constexpr std::size_t kBufferBytes = 64 * 1024;
 
 /// Where a name leads; the name itself if nothing is there yet.
 std::string followed(const std::string& name) {
-  char* path = realpath(name.c_str(), nullptr);
-  if (path == nullptr) return name;
-  const std::string result = path;
-  std::free(path);
-  return result;
+  const std::string path = real_path(name);
+  return path.empty() ? name : path;
 }
 
 /// The folder part of a path with its last slash, and the rest.
@@ -66,6 +64,11 @@ int empty_folder(const std::string& path) {
 }
 
 }  // namespace
+
+std::string real_path(const std::string& name) {
+  const std::unique_ptr<char, void (*)(void*)> path(realpath(name.c_str(), nullptr), std::free);
+  return path == nullptr ? "" : path.get();
+}
 
 bool FileError::set(const std::string& name, int error) {
   if (text.empty()) text = (name == "-" ? "standard output" : name) + ": " + std::strerror(error);

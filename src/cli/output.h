@@ -11,6 +11,9 @@
 
 namespace shodo {
 
+/// The one path of a file or folder, links followed; empty if there is none.
+std::string real_path(const std::string& name);
+
 /// What went wrong with which file; the first mistake stays. Everything that touches files returns false after one.
 struct FileError {
   std::string text;  // "out/day.png: No space left on device"; empty: nothing went wrong

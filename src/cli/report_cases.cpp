@@ -162,7 +162,9 @@ std::string_view flags_text(FlagMode flags) {
 
 std::string number_text(double value) {
   char digits[400];  // without an exponent the smallest double takes 341
-  const auto end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed).ptr;
+  auto end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::scientific, 14).ptr;
+  std::from_chars(digits, end, value);
+  end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed).ptr;
   return {digits, end};
 }
 

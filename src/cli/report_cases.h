@@ -37,7 +37,7 @@ std::string_view flags_text(FlagMode flags);
 std::string rules_text(const Rules& rules);
 /// "16,64"
 std::string segments_text(const Options& options);
-/// The shortest decimal without an exponent that reads back the same: "0.5".
+/// A decimal of at most 15 digits without an exponent, no longer than it must be: "0.5".
 std::string number_text(double value);
 
 bool same_rules(const Rules& a, const Rules& b);

@@ -44,7 +44,10 @@ Status Run::load_into(std::size_t bytes) {
     std::snprintf(status.message, sizeof status.message, "the system refuses %s of memory", size_text(bytes).c_str());
     return status;
   }
-  return shodo::load(arguments_.scene, text_, files_.reader(), arguments_.options, memory_->start(), bytes, model_);
+  Status status =
+      shodo::load(arguments_.scene, text_, files_.reader(), arguments_.options, memory_->start(), bytes, model_);
+  files_.explain(status);
+  return status;
 }
 
 int Run::load_in_budget() {
@@ -69,7 +72,8 @@ int Run::load_at_any_size() {
   for (std::size_t bytes = std::min<std::size_t>(8 << 20, most);;) {
     Status status = load_into(bytes);
     if (status.done()) return tell_interrupt();
-    if (status.code != StatusCode::kMemory || bytes == most) return tell(status);
+    if (status.code != StatusCode::kMemory) return tell(status);
+    if (bytes == most) return refuse_scene(status.bytes_needed, most);
     bytes = std::min(most, std::max<std::size_t>(2 * bytes, status.bytes_needed));
   }
 }
@@ -79,6 +83,16 @@ int Run::refuse_budget(std::uint64_t needed) {
   std::fprintf(stderr, "shodo: the memory budget of %s is too small: expected at least %llu bytes (--memory %s)\n",
                size_text(arguments_.memory).c_str(), static_cast<unsigned long long>(needed),
                size_text(rounded).c_str());
+  return static_cast<int>(StatusCode::kMemory);
+}
+
+int Run::refuse_scene(std::uint64_t needed, std::uint64_t tried) {
+  watch_.finish();
+  std::fprintf(stderr,
+               "shodo: the memory budget of %s is too small: expected at least %llu bytes; how many is not tried past "
+               "%llu, half of this machine's memory or --memory\n",
+               size_text(arguments_.memory).c_str(), static_cast<unsigned long long>(needed),
+               static_cast<unsigned long long>(tried));
   return static_cast<int>(StatusCode::kMemory);
 }
 

@@ -54,6 +54,8 @@ class Run {
   int read_scene();
   Status load_into(std::size_t bytes);
   int refuse_budget(std::uint64_t needed);
+  /// Says that more is needed than what was tried; the exit status.
+  int refuse_scene(std::uint64_t needed, std::uint64_t tried);
 
   const Arguments& arguments_;
   bool draws_;  // whether the picture's memory counts

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 
 #include "cli/image_file.h"
 
@@ -65,12 +66,24 @@ Reader SceneFiles::reader() {
           this};
 }
 
+void SceneFiles::explain(Status& status) const {
+  if (status.code != StatusCode::kScene || undecoded_.empty()) return;
+  std::snprintf(status.message, sizeof status.message,
+                "expected a PNG, JPEG or TGA that can be decoded, of 1 to %d texels each way, found %s", kMostTexels,
+                undecoded_.c_str());
+}
+
 bool SceneFiles::read(const std::string& path, std::string_view& text, FileError& error) {
   std::string whole;
   if (const int reason = read_whole(path, whole); reason != 0) return error.set(path, reason);
+  undecoded_.clear();
   if (is_image_name(path)) {
     std::string ppm;
-    if (decode_image(whole, ppm)) whole = std::move(ppm);  // else the library says what it expects
+    if (decode_image(whole, ppm)) {
+      whole = std::move(ppm);
+    } else if (!whole.starts_with("P5") && !whole.starts_with("P6")) {  // those the library reads whatever their name
+      undecoded_ = path.substr(folder_.size());
+    }
   }
   text = texts_.emplace_back(std::move(whole));
   return true;

@@ -7,6 +7,7 @@
 
 #include "cli/output.h"
 #include "shodo/callbacks.h"
+#include "shodo/status.h"
 
 namespace shodo {
 
@@ -17,6 +18,8 @@ class SceneFiles {
 
   bool read_top(std::string_view& text, FileError& error);
   Reader reader();
+  /// A picture that couldn't be decoded makes the library ask for a PPM: the message that names what the program takes.
+  void explain(Status& status) const;
 
  private:
   bool read(const std::string& path, std::string_view& text, FileError& error);
@@ -24,6 +27,7 @@ class SceneFiles {
   std::string scene_;
   std::string folder_;             // with its slash; empty: the working folder
   std::deque<std::string> texts_;  // addresses stay
+  std::string undecoded_;          // the picture read last, if it couldn't be decoded
 };
 
 }  // namespace shodo

@@ -79,7 +79,7 @@ bool read_grid(std::string_view bytes, ValueGrid& grid, std::string& mistake) {
   grid.map = kind == "PF" || kind == "Pf";
   grid.channels = kind == "Pf" ? 1 : 3;
   if (!grid.map && kind != "P6") {
-    mistake = "expected a picture (PPM, P6) or a map (PFM)";
+    mistake = "expected a picture (PPM, P6; PNG) or a map (PFM)";
     return false;
   }
   if (!side(header.word(), grid.width) || !side(header.word(), grid.height)) {

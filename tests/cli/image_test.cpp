@@ -80,8 +80,8 @@ TEST(ImageFile, CutAndForeignFilesAreRefused) {
 }
 
 TEST(ImageFile, GoesByTheNamesEnding) {
-  for (const char* const name : {"a.png", "b/c.jpg", "d.jpeg", "e.tga"}) EXPECT_TRUE(is_image_name(name));
-  for (const char* const name : {"a.ppm", "b.scn", "png", "c.png.pgm"}) EXPECT_FALSE(is_image_name(name));
+  for (const char* const name : {"a.png", "b/c.jpg", "d.jpeg", "e.tga", "F.JPG"}) EXPECT_TRUE(is_image_name(name));
+  for (const char* const name : {"a.ppm", "b.scn", "png", "c.png.pgm", ""}) EXPECT_FALSE(is_image_name(name));
 }
 
 std::string scene_with(const std::string& texture) {
@@ -110,7 +110,10 @@ TEST(Program, SaysWhereATextureIsNamedThatCantBeUsed) {
   const Outcome bad = run({"check", "bad.scn"}, folder.path());
   const Outcome missing = run({"check", "missing.scn"}, folder.path());
   EXPECT_EQ(bad.status, 3);
-  EXPECT_NE(bad.err.find("bad.scn:2:32: expected a texture in PPM or PGM"), std::string::npos) << bad.err;
+  EXPECT_NE(bad.err.find("bad.scn:2:32: expected a PNG, JPEG or TGA that can be decoded, of 1 to 8192 texels each"),
+            std::string::npos)
+      << bad.err;
+  EXPECT_NE(bad.err.find("found bad.png\n"), std::string::npos) << bad.err;
   EXPECT_EQ(missing.status, 1);
   const char* const expected = "missing.scn:2:32: expected a picture that can be read";
   EXPECT_NE(missing.err.find(expected), std::string::npos) << missing.err;

@@ -370,12 +370,13 @@ TEST(Difference, RefusesWhatItCanNotCompare) {
       {{"a.ppm"}, 2, "expected two files, found 'a.ppm' alone"},
       {{}, 2, "expected two files, found none"},
       {{"a.ppm", "a.ppm", "a.ppm"}, 2, "expected two files"},
-      {{"a.ppm", "small.ppm"}, 2, "expected two of one kind and size, found 2 x 1 x 3 and 1 x 1 x 3"},
+      {{"a.ppm", "small.ppm"}, 2,
+       "expected two of one kind and size, found a picture of 2 x 1 x 3 and a picture of 1 x 1 x 3"},
       {{"a.ppm", "none.ppm"}, 1, "none.ppm: No such file"},
       {{"a.ppm", "short.ppm"}, 1, "short.ppm: expected 6 bytes after the header, found 3"},
       {{"deep.ppm", "a.ppm"}, 1, "deep.ppm: expected 255 as the largest value"},
       {{"nan.pfm", "nan.pfm"}, 1, "nan.pfm: expected finite numbers"},
-      {{"text", "a.ppm"}, 1, "text: expected a picture (PPM, P6) or a map (PFM)"},
+      {{"text", "a.ppm"}, 1, "text: expected a picture (PPM, P6; PNG) or a map (PFM)"},
       {{"a.ppm", "a.ppm", "-o", "d.pfm"}, 2, "-o: expected a name that ends in .png or .ppm"},
       {{"a.ppm", "a.ppm", "--size", "8x8"}, 2, "--size has no meaning for difference"},
   };
@@ -392,7 +393,7 @@ TEST(Difference, RefusesWhatItCanNotCompare) {
 TEST(Measured, WrongWordsAreRefused) {
   const std::string scene = test_scene("sun.scn");
   const std::pair<Running::Words, std::string> cases[] = {
-      {{"--false-colour", "red"}, "--false-colour: expected auto, or two numbers"},
+      {{"--false-colour", "red"}, "--false-colour: expected auto, or LOW,HIGH in lux"},
       {{"--false-colour", "5,5"}, "found '5,5'"},
       {{"--false-colour", "-1,5"}, "found '-1,5'"},
       {{"--isolux", "0"}, "found '0'"},

@@ -357,6 +357,14 @@ TEST(ReportCases, TheReferenceGathersButWithLightOverMirrors) {
   EXPECT_EQ(reference.segments_mixed, 256u);
 }
 
+TEST(ReportCases, NumbersAreWrittenAsAPersonWould) {
+  EXPECT_EQ(number_text(3 * 0.3), "0.9") << "0.8999999999999999 as a double";
+  EXPECT_EQ(number_text(1.4142135623731), "1.4142135623731");
+  EXPECT_EQ(number_text(2.3e-4), "0.00023");
+  EXPECT_EQ(number_text(1e-12), "0.000000000001");
+  EXPECT_EQ(number_text(64), "64");
+}
+
 TEST(ReportCases, RulesAreNamedAsTheOptionTakesThem) {
   EXPECT_EQ(rules_text({}), "none");
   EXPECT_EQ(rules_text({.rule1 = true, .rule2 = true, .rule3 = true}), "all");

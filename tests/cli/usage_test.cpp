@@ -93,7 +93,8 @@ TEST(CommandLine, EveryMistakeEndsWithStatus2AndOneLineThatNamesIt) {
       {render({"--tolerance", "nan"}), "found 'nan'"},
       {render({"--tolerance", "1e-4x"}), "found '1e-4x'"},
       {render({"--patch", "-1"}), "--patch: expected"},
-      {render({"--patch", "0"}), "--patch: expected"},
+      {render({"--patch", "0"}), "--patch: expected a number from 1e-30 to 1e30"},
+      {render({"--patch", "1e31"}), "--patch: expected a number from 1e-30 to 1e30"},
       {render({"--patch", "inf"}), "--patch: expected"},
       {render({"--sub-patch", "1,5"}), "--sub-patch: expected"},
       {render({"--refine", "0"}), "--refine: expected"},
@@ -107,6 +108,9 @@ TEST(CommandLine, EveryMistakeEndsWithStatus2AndOneLineThatNamesIt) {
       {render({"--scale-rows", "yes"}), "--scale-rows: expected on or off"},
       {render({"--interpolate", "1"}), "--interpolate: expected on or off"},
       {render({"--gather", "2"}), "--gather: expected on, off, or a number from 1e-9 to 1"},
+      {render({"--gather", "on", "--rules", "1"}), "--gather works without --rules or with blocks alone"},
+      {render({"--rules", "2+,blocks", "--gather", "1e-3"}), "--gather works without --rules or with blocks alone"},
+      {{"check", scene, "--rules", "all", "--gather", "on"}, "--gather works without --rules or with blocks alone"},
       {render({"--row-values", "32"}), "--row-values: expected 16 or 64"},
       {render({"--size", "640"}), "--size: expected"},
       {render({"--size", "0x8"}), "--size: expected"},
@@ -116,6 +120,8 @@ TEST(CommandLine, EveryMistakeEndsWithStatus2AndOneLineThatNamesIt) {
       {render({"--size", "8x8x8"}), "--size: expected"},
       {render({"--antialias", "2"}), "--antialias: expected 1, 4 or 16"},
       {render({"--camera", ""}), "--camera: expected"},
+      {render({"--false-colour", "0,1e-4"}), "LOW from 0, HIGH from 0.001 to 1e9 and above LOW, found '0,1e-4'"},
+      {render({"--isolux", "0,5"}), "numbers from 0.001 to 1e9 with commas between, found '0,5'"},
       {render({"--csv", ""}), "--csv: expected"},
       {render({"--csv", "-", "--stats", "-"}), "two outputs"},
       {render({"--csv", "x.ppm"}), "two outputs"},
@@ -132,6 +138,34 @@ TEST(CommandLine, EveryMistakeEndsWithStatus2AndOneLineThatNamesIt) {
     EXPECT_EQ(lines_of(outcome.err).size(), 1u) << shown;
   }
   EXPECT_TRUE(folder.entries().empty());
+}
+
+TEST(CommandLine, AnOutputIsNeverAFileThatIsReadNorAnotherOutput) {
+  const TestFolder folder;
+  const std::string scene = file_text(test_scene("sun.scn")), picture = "P6\n1 1\n255\nabc";
+  folder.write("a.scn", scene);
+  folder.write("a.ppm", picture);
+  ASSERT_EQ(symlink("a.scn", (folder / "link").c_str()), 0);
+  ASSERT_EQ(mkdir((folder / "maps").c_str(), 0777), 0);
+  const Mistake mistakes[] = {
+      {{"render", "a.scn", "-o", "x.ppm", "--csv", "a.scn"}, "the output 'a.scn' is a file that is read"},
+      {{"render", "./a.scn", "-o", "x.ppm", "--stats", "maps/../a.scn"}, "the output 'maps/../a.scn' is a file"},
+      {{"map", "a.scn", "-o", "m", "--summary", "link"}, "the output 'link' is a file that is read"},
+      {{"difference", "a.ppm", "a.ppm", "-o", "./a.ppm"}, "the output './a.ppm' is a file that is read"},
+      {{"render", "a.scn", "-o", "x.ppm", "--csv", "./x.ppm"}, "two outputs are one file, found './x.ppm'"},
+      {{"map", "a.scn", "-o", "m", "--csv", "x", "--stats", "maps/../x"}, "two outputs are one file"},
+      {{"map", "a.scn", "-o", "maps", "--csv", "./maps/x"}, "'./maps/x' lies in the folder that -o makes anew"}};
+  for (const Mistake& mistake : mistakes) {
+    const Outcome outcome = run(mistake.words, folder.path());
+    const std::string shown = testing::PrintToString(mistake.words);
+    EXPECT_EQ(outcome.status, 2) << shown;
+    EXPECT_TRUE(contains(outcome.err, mistake.said)) << shown << outcome.err;
+  }
+  EXPECT_EQ(folder.entries(), (std::vector<std::string>{"a.ppm", "a.scn", "link", "maps"}));
+  EXPECT_EQ(file_text(folder / "a.scn"), scene);
+  EXPECT_EQ(file_text(folder / "a.ppm"), picture);
+  // What is written there keeps nothing.
+  EXPECT_EQ(run({"render", "a.scn", "-o", "x.ppm", "--csv", "/dev/null", "--size", "2x2"}, folder.path()).status, 0);
 }
 
 TEST(CommandLine, EveryOptionIsTakenAtBothEndsOfItsRange) {

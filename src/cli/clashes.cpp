@@ -1,0 +1,50 @@
+#include "cli/clashes.h"
+
+#include <sys/stat.h>
+
+#include <vector>
+
+#include "cli/output.h"
+
+namespace shodo {
+
+namespace {
+
+/// The one path of a file or folder, or of one that may be made there; empty if there is none, and for what isn't a
+/// file or folder.
+std::string place_of(std::string name) {
+  struct stat found {};
+  if (stat(name.c_str(), &found) == 0) {
+    return S_ISREG(found.st_mode) || S_ISDIR(found.st_mode) ? real_path(name) : "";
+  }
+  while (name.size() > 1 && name.back() == '/') name.pop_back();
+  const std::size_t slash = name.rfind('/');
+  const std::string folder = real_path(slash == std::string::npos ? "." : name.substr(0, slash + 1));
+  return folder.empty() ? "" : folder + "/" + name.substr(slash + 1);
+}
+
+}  // namespace
+
+bool outputs_apart(const Arguments& arguments, std::string& mistake) {
+  std::vector<std::string> taken, read;
+  for (const std::string& input : arguments.scenes) read.push_back(place_of(input));
+  const bool is_folder = arguments.command == Command::kMap || arguments.command == Command::kReport;
+  const std::string folder = is_folder ? place_of(arguments.output) + "/" : "";
+  for (const std::string& name : {arguments.output, arguments.csv, arguments.statistics, arguments.summary}) {
+    const std::string place = name.empty() || name == "-" ? "" : place_of(name);
+    if (place.empty()) continue;
+    for (const std::string& other : read) {
+      if (other == place) mistake = "the output '" + name + "' is a file that is read";
+    }
+    for (const std::string& other : taken) {
+      if (other == place) mistake = "two outputs are one file, found '" + name + "'";
+    }
+    if (folder.size() > 1 && place.starts_with(folder)) {
+      mistake = "the output '" + name + "' lies in the folder that -o makes anew";
+    }
+    taken.push_back(place);
+  }
+  return mistake.empty();
+}
+
+}  // namespace shodo

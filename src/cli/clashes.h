@@ -1,0 +1,16 @@
+// Names on the command line that lead to one file: an output would take the place of what is read, or of another
+// output.
+#pragma once
+
+#include <string>
+
+#include "cli/arguments.h"
+
+namespace shodo {
+
+/// False, and `mistake` one line, if an output is a file that is read, or another output by another name, or lies in
+/// the folder that is an output. Links are followed; standard output, devices and pipes may be named as one likes.
+/// Files that a scene names are not known yet.
+bool outputs_apart(const Arguments& arguments, std::string& mistake);
+
+}  // namespace shodo
