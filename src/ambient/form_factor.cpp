@@ -17,9 +17,8 @@ enum class Facing { kAway, kFully, kCrossing };
 
 /// Where a patch with centre at `height` over a plane stands to it.
 Facing facing(const PatchShape& shape, double longest_side, double height, const Vec3& normal, double flat) {
-  const double radius = shape.outline == Outline::kConcave ? 2 * longest_side : longest_side;
-  if (height > radius) return Facing::kFully;
-  if (height < -radius) return Facing::kAway;
+  if (height > longest_side) return Facing::kFully;  // no corner is farther from the centre
+  if (height < -longest_side) return Facing::kAway;
   const Extent extent = extent_along(shape, longest_side, normal);
   if (height + extent.high <= flat) return Facing::kAway;
   return height + extent.low >= -flat ? Facing::kFully : Facing::kCrossing;

@@ -46,7 +46,8 @@ PatchShape shape_of(const Piece& piece) {
 }
 
 Extent extent_along(const PatchShape& shape, double longest_side, const Vec3& direction) {
-  if (shape.outline == Outline::kConcave) return {-2 * longest_side, 2 * longest_side};
+  // The centre is the middle of the diagonal that lies within, which is at most a side from both other corners.
+  if (shape.outline == Outline::kConcave) return {-longest_side, longest_side};
   const double a = dot(shape.a, direction), b = dot(shape.b, direction);
   if (shape.outline == Outline::kTriangle) {
     const double c0 = -(a + b) / 3, c1 = c0 + a, c2 = c0 + b;

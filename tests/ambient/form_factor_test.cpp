@@ -227,6 +227,51 @@ TEST(FormFactor, EveryTierAgreesWithPlainSummationWithinItsStatedError) {
   }
 }
 
+/// A twisted quadrilateral: its places, x and y from -1 to 1, and the area about each, seen along its mean normal.
+struct Twisted {
+  explicit Twisted(const Vec3* c)
+      : centre(0.25 * ((c[0] + c[1]) + (c[2] + c[3]))), a(0.25 * ((c[1] - c[0]) + (c[2] - c[3]))),
+        b(0.25 * ((c[3] - c[0]) + (c[2] - c[1]))), twist(0.25 * ((c[0] - c[1]) + (c[2] - c[3]))),
+        normal(normalised(cross(a, b))) {}
+  Vec3 at(double x, double y) const { return centre + x * a + y * b + (x * y) * twist; }
+  double area_at(double x, double y) const { return 4 * dot(normal, cross(a + y * twist, b + x * twist)); }
+  Vec3 centre, a, b, twist, normal;
+};
+
+/// Slow and obvious: the kernel of both mean normals, summed over m x m points of each.
+double summed_by_mean_normals(const Twisted& p, const Twisted& q, int m) {
+  const auto place = [m](int k) { return (k + 0.5) * 2 / m - 1; };
+  double sum = 0;
+  for (int k = 0; k < m * m; ++k) {
+    const double x = place(k % m), y = place(k / m);
+    for (int l = 0; l < m * m; ++l) {
+      const double u = place(l % m), v = place(l / m);
+      const Vec3 d = q.at(u, v) - p.at(x, y);
+      sum -= p.area_at(x, y) * q.area_at(u, v) * dot(p.normal, d) * dot(q.normal, d) /
+             (length_squared(d) * length_squared(d));
+    }
+  }
+  return sum / (M_PI * m * m * m * m);
+}
+
+TEST(FormFactor, PointsOfATwistedPatchStandAtTheirHeights) {
+  // Beside each other, so that a point's height counts beside the way to it. The middle tier errs by 1.4e-3 of these
+  // exchanges, well below what it allows itself.
+  for (const double lift : {0.5, 1.0}) {
+    const Vec3 p[4] = {{0, 0, lift}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    const Vec3 q[4] = {{2, 2, 1}, {2, 3, 1}, {3, 3, 1 - lift}, {3, 2, 1}};
+    AmbientScene scene(grey(0.5) + quad("a", {p[0], p[1], p[2], p[3]}) + quad("b", {q[0], q[1], q[2], q[3]}),
+                       exact_rows());
+    Surfaces surfaces;
+    ASSERT_TRUE(gather_surfaces(scene.loaded.scene, scene.geometry, scene.patches, scene.direct, scene.options,
+                                scene.loaded.arena, surfaces)
+                    .done());
+    const double expected = summed_by_mean_normals(Twisted(p), Twisted(q), 24);
+    const PairExchange pair = exchange_between(surfaces, row_side(surfaces, 0), 1, 0.2);
+    EXPECT_NEAR(pair.geometric, expected, 0.002 * expected) << lift;
+  }
+}
+
 TEST(FormFactor, NeitherTheOrderOfPatchesNorOfVerticesMatters) {
   std::mt19937 random(21);
   for (int trial = 0; trial < 20; ++trial) {
@@ -256,6 +301,20 @@ TEST(FormFactor, AConcaveQuadrilateralCountsAsItsTwoTriangles) {
   // Both halves are equal in area, so the mean of their factors is the whole's.
   EXPECT_NEAR(whole, (matrix.form_factor(0, 2) + matrix.form_factor(1, 2)) / 2, 1e-3 * whole);
   EXPECT_GT(whole, 0.3);
+}
+
+TEST(FormFactor, AnArmOfAConcavePatchBeyondTheOthersPlaneIsSeen) {
+  // Of an arrowhead with thin arms, all of one arm but a tenth, and a tenth of an arm.
+  const Vec3 a{-1, 0, 0}, b{0, 0.3, 0}, c{1, 0, 0}, d{-0.05, 0.28, 0};
+  for (const double x : {-0.1, -0.9, -0.98, 0.98}) {
+    const std::string wall = quad("wall", {{x, -2, 1}, {x, 2, 1}, {x, 2, 3}, {x, -2, 3}});
+    AmbientScene scene(grey(0.5) + quad("arrow", {a, d, c, b}) + wall, exact_rows());
+    Surfaces surfaces;
+    ASSERT_TRUE(gather_surfaces(scene.loaded.scene, scene.geometry, scene.patches, scene.direct, scene.options,
+                                scene.loaded.arena, surfaces)
+                    .done());
+    EXPECT_TRUE(exchange_between(surfaces, row_side(surfaces, 0), 1, 1e-3).crossing) << x;
+  }
 }
 
 }  // namespace

@@ -76,5 +76,29 @@ TEST(VisibleFraction, OfUnevenPatchesTheMiddleTierIsTheContourIntegral) {
   EXPECT_NEAR(found.form_factor(0, 1), truth.form_factor(0, 1), 0.01 * truth.form_factor(0, 1));
 }
 
+std::string quad_of(const std::string& name, std::initializer_list<Vec3> corners) {
+  std::string text = "object " + name + "\nquad white";
+  for (const Vec3& c : corners) {
+    for (const double x : {c.x, c.y, c.z}) text += " " + std::to_string(x);
+  }
+  return text + " patches 1 1 sub 1 1\n";
+}
+
+TEST(VisibleFraction, OfAnUnevenPatchWhoseWideHalfIsHiddenIsThePartThatIsLeft) {
+  // A patch that narrows to a fifth, its wide half, two thirds of its area, under a screen; once it ends farther along x
+  // than the other patch and once not, which is what their order goes by.
+  const std::string floor = kHead.substr(0, kHead.find("object")) +
+                            quad_of("narrowing", {{0, 0, 0}, {1, 0, 0}, {0.6, 1, 0}, {0.4, 1, 0}});
+  const std::string screen = quad_of("screen", {{-1, -1, 0.02}, {2, -1, 0.02}, {2, 0.5, 0.02}, {-1, 0.5, 0.02}});
+  for (const double x : {-0.05, 0.95}) {
+    const std::string both = floor + quad_of("other", {{x, 0, 3}, {x, 0.1, 3}, {x + 0.1, 0.1, 3}, {x + 0.1, 0, 3}});
+    Options options;
+    options.scale_rows = false;
+    AmbientScene open(both, options), hidden(both + screen, options);
+    const double visible = StoredMatrix(hidden).form_factor(0, 1) / StoredMatrix(open).form_factor(0, 1);
+    EXPECT_NEAR(visible, 1.0 / 3, 0.03) << x;
+  }
+}
+
 }  // namespace
 }  // namespace shodo
