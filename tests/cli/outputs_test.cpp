@@ -7,40 +7,10 @@
 #include <map>
 
 #include "cli/program.h"
-
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#pragma GCC diagnostic ignored "-Wunused-function"
-#define STB_IMAGE_STATIC
-#define STB_IMAGE_IMPLEMENTATION
-#define STBI_ONLY_PNG
-#define STBI_ONLY_PNM
-#define STBI_NO_STDIO
-#define STBI_NO_LINEAR
-#include <stb/stb_image.h>
-#pragma GCC diagnostic pop
+#include "support/decoded_picture.h"
 
 namespace shodo {
 namespace {
-
-struct Pixels {
-  int width = 0, height = 0;
-  std::string rgb;
-};
-
-Pixels pixels_of(const std::string& file) {
-  Pixels pixels;
-  int channels = 0;
-  const auto* bytes = reinterpret_cast<const stbi_uc*>(file.data());
-  stbi_uc* data =
-      stbi_load_from_memory(bytes, static_cast<int>(file.size()), &pixels.width, &pixels.height, &channels, 3);
-  if (data == nullptr) return pixels;
-  pixels.rgb.assign(reinterpret_cast<const char*>(data), static_cast<std::size_t>(3 * pixels.width * pixels.height));
-  stbi_image_free(data);
-  return pixels;
-}
 
 std::vector<std::string> columns_of(const std::string& line) {
   std::vector<std::string> columns(1);
@@ -85,11 +55,12 @@ TEST(Picture, PngHasThePixelsOfPpm) {
   const std::string ppm = file_text(folder / "x.ppm");
   EXPECT_EQ(ppm.substr(0, 13), "P6\n37 21\n255\n");
   EXPECT_EQ(ppm.size(), 13u + 3u * 37u * 21u);
-  const Pixels png = pixels_of(file_text(folder / "x.png"));
-  EXPECT_EQ(png.width, 37);
-  EXPECT_EQ(png.height, 21);
-  EXPECT_TRUE(png.rgb == ppm.substr(13));
-  EXPECT_NE(png.rgb, std::string(png.rgb.size(), png.rgb[0])) << "there is something to see";
+  const DecodedPicture png = decoded_picture(file_text(folder / "x.png"));
+  EXPECT_EQ(png.width, 37u);
+  EXPECT_EQ(png.height, 21u);
+  const std::string pixels(png.rgb.begin(), png.rgb.end());
+  EXPECT_TRUE(pixels == ppm.substr(13));
+  EXPECT_NE(pixels, std::string(pixels.size(), pixels[0])) << "there is something to see";
 }
 
 TEST(Picture, TheCameraNamedIsTheOneDrawn) {
