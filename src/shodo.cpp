@@ -10,6 +10,7 @@
 
 #include "ambient/gather.h"
 #include "ambient/plane_gather.h"
+#include "base/interrupted.h"
 #include "base/self_check.h"
 #include "base/text.h"
 #include "memory_plan.h"
@@ -42,13 +43,6 @@ Status wrong_use(std::string_view what) {
   Status status;
   status.code = StatusCode::kUsage;
   MessageText(status.message, sizeof status.message).add(what);
-  return status;
-}
-
-Status interrupted() {
-  Status status;
-  status.code = StatusCode::kInterrupted;
-  MessageText(status.message, sizeof status.message).add("interrupted");
   return status;
 }
 
