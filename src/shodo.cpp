@@ -2,17 +2,20 @@
 //
 // The model stands at the start of the caller's memory and its arena over the rest, so one number, the size of that
 // memory, bounds everything. What load() leaves stays until the end; solve() starts from there each time it is called.
-// Whether the memory suffices for all stages is decided after load() and before anything is lit (design: promise 2).
+// Whether the memory suffices for all stages is decided after load() and before anything is lit (design: promise 2);
+// what gives way where it is short, and comes back, is in model_memory.h.
 #include "shodo/shodo.h"
 
 #include <new>
 
 #include "ambient/gather.h"
 #include "ambient/plane_gather.h"
+#include "base/interrupted.h"
 #include "base/self_check.h"
 #include "base/text.h"
 #include "memory_plan.h"
 #include "model.h"
+#include "model_memory.h"
 #include "picture/picture.h"
 #include "scene/scene_file.h"
 #include "scene/texture.h"
@@ -40,13 +43,6 @@ Status wrong_use(std::string_view what) {
   Status status;
   status.code = StatusCode::kUsage;
   MessageText(status.message, sizeof status.message).add(what);
-  return status;
-}
-
-Status interrupted() {
-  Status status;
-  status.code = StatusCode::kInterrupted;
-  MessageText(status.message, sizeof status.message).add("interrupted");
   return status;
 }
 
@@ -104,130 +100,6 @@ void end_stage(Model& model, MemoryStage stage) {
   if (bytes > peak) peak = bytes;
   model.statistics.memory_peak = model.overhead + model.arena.peak();
   model.arena.start_stage();
-}
-
-/// The sub-patches' direct light stands in spare blocks; if the rows took them, all is lit once more.
-Status keep_sub_patches(Model& model, const Progress& progress) {
-  Arena& arena = model.arena;
-  DirectLight& direct = model.direct;
-  const bool held = !direct.hidden.empty() && arena.holds(direct.hidden) && arena.holds(direct.sub_patch_lx) &&
-                    arena.holds(direct.sub_patch_factor);
-  arena.pin_spares(held ? arena.spares() : 0);
-  const SurfacesKeep keep = model.patches.empty() ? SurfacesKeep::kNothing : SurfacesKeep::kGeometry;
-  if ((held || model.scene.sub_patch_count == 0) && maps_bytes(model, keep) <= arena.left()) return {};
-  arena.release_spares(model.loaded_spares);
-  arena.pin_spares(0);
-  const Statistics counted = model.statistics;
-  const Status status = light_directly(model.scene, model.geometry, model.patches, model.options, model.intersector,
-                                       progress, arena, direct, model.statistics, DirectKeeps::kSubPatches);
-  model.statistics = counted;
-  model.statistics.lit_again = 1;
-  return status;
-}
-
-/// The patches of load(), or new ones if the picture had their memory; none where memory is short.
-Status take_patches(Model& model) {
-  if (!keeps_geometry(model)) {
-    model.arena.release(model.after_geometry);
-    model.patches = {};
-    model.statistics.geometry_again = 1;
-    return {};
-  }
-  if (!model.patches.empty()) {
-    model.arena.release(model.after_patches);
-    return {};
-  }
-  model.arena.release(model.after_geometry);
-  const Statistics counted = model.statistics;
-  const Status status = build_patches(model.scene, model.geometry, model.arena, model.patches, model.statistics);
-  model.statistics = counted;
-  return status;
-}
-
-template <class T>
-void move_down(std::span<T>& block, std::size_t bytes) {
-  // A block of the arena: T stands on a multiple of its size from its start.
-  if (!block.empty()) block = {block.data() - bytes / sizeof(T), block.size()};
-}
-
-/// What sub-patches know of lights served gathering alone; `end`: of where it stands, if it isn't spare.
-void forget_factors(Model& model, Arena::Mark end) {
-  std::span<std::uint16_t>& factors = model.direct.sub_patch_factor;
-  if (factors.empty()) return;
-  if (model.arena.holds(factors)) {
-    model.arena.release_spares(model.arena.spares() - 1);
-  } else {
-    move_down(model.maps.ambient_lx, model.arena.lower(end, end - (factors.size_bytes() + 7) / 8 * 8));
-  }
-  factors = {};
-}
-
-/// What the picture is made of takes the place of what lies from `to` on.
-void lower_maps(Model& model, Arena::Mark to) {
-  const bool with_direct = !model.arena.holds(model.direct.sub_patch_lx);
-  const std::size_t by = model.arena.lower(model.before_maps, to);
-  model.before_maps = to;
-  move_down(model.planes.direct_lx, by);
-  move_down(model.planes.ambient_lx, by);
-  move_down(model.planes.hidden, by);
-  move_down(model.maps.ambient_lx, by);
-  if (with_direct) {
-    move_down(model.direct.sub_patch_lx, by);
-    move_down(model.direct.hidden, by);
-    model.maps.direct_lx = model.direct.sub_patch_lx;
-    model.maps.hidden = model.direct.hidden;
-  }
-}
-
-/// Patches and all that is by patch go.
-void give_up_patches(Model& model) {
-  lower_maps(model, model.after_geometry);
-  model.patches = {};
-  model.flags = {};
-  model.direct.patch_lx = {};
-  model.direct.visible_area = model.direct.light_form_factor = {};
-  model.ambient = {};
-}
-
-/// And what blocks.
-void give_up_triangles(Model& model) {
-  Geometry& geometry = model.geometry;
-  lower_maps(model, geometry.before_triangles);
-  geometry.triangles = {};
-  geometry.panes = {};
-  geometry.cells = geometry.light_triangles = {};
-  geometry.first_cell = {};
-  model.placed = false;
-}
-
-/// They come back when the scene is solved once more.
-Status place_again(Model& model) {
-  if (model.placed) return {};
-  model.arena.release(model.after_scene);
-  model.arena.pin_spares(0);
-  model.arena.release_spares(0);
-  const Statistics counted = model.statistics;
-  const Status status = place_scene(model.scene, model.arena, model.geometry);
-  model.statistics = counted;
-  model.loaded_spares = model.arena.spares();
-  model.arena.pin_spares(0);
-  model.placed = status.done();
-  return status;
-}
-
-/// The drawn triangles, if the light took their memory.
-Status place_drawn_again(Model& model) {
-  Geometry& geometry = model.geometry;
-  Arena& arena = model.arena;
-  const bool held = arena.holds(geometry.drawn) && geometry.drawn.size() == geometry.drawn_count;
-  arena.pin_spares(arena.spares());
-  const std::uint64_t wanted = held ? model.picture_scratch : drawn_and_picture_bytes(model);
-  if (wanted > arena.left() && model.placed) give_up_patches(model);
-  if (wanted > arena.left() && model.placed) give_up_triangles(model);
-  model.before_drawing = arena.mark();
-  if (held) return {};
-  model.statistics.placed_again = 1;
-  return place_drawn(model.scene, arena, geometry) ? Status() : arena.refused();
 }
 
 /// What drawing took goes, and so do drawn triangles that aren't spare.

@@ -29,7 +29,7 @@ struct [[nodiscard]] Status {
   std::uint32_t column;        // 1-based, in bytes
   std::uint64_t bytes_needed;  // kMemory: the arena's smallest size for the call that failed, 0 if not known
   char file[128];              // name as the scene or the caller gave it; the end of it if it is longer
-  char message[256];           // "expected ..., found ..."
+  char message[256];           // "expected ..., found ..."; none if the caller stopped the run
 
   bool done() const { return code == StatusCode::kDone; }
 };

@@ -25,36 +25,35 @@ void add_light(std::string& line, std::span<const float> lux, std::size_t sub_pa
   }
 }
 
+/// What the lines of meshes and planes end with.
+std::string place_and_light(const Model& model, const Piece& piece, std::span<const float> direct_lx,
+                            std::span<const float> ambient_lx, std::size_t sub_patch) {
+  const Vec3 area = piece.vector_area();
+  std::string line;
+  add_vector(line, model.scene.origin + piece.centre());
+  add_vector(line, normalised(area));
+  add_number(line, length(area));
+  add_light(line, direct_lx, sub_patch, model.scene.channels);
+  add_light(line, ambient_lx, sub_patch, model.scene.channels);
+  return line + "\n";
+}
+
 std::string table_line(const Model& model, const std::string& mesh_columns, const Mesh& mesh, std::uint32_t local) {
   const PieceIndex index = sub_patch_index(mesh, local);
   const bool triangle = mesh.kind == MeshKind::kTriangle;
   const std::uint32_t u = triangle ? 2 * index.u + (index.inverted ? 1 : 0) : index.u;
-  const Piece piece = sub_patch_piece(model.scene, mesh, local);
-  const Vec3 area = piece.vector_area();
-  std::string line = mesh_columns + "," + std::to_string(u) + "," + std::to_string(index.v);
-  add_vector(line, model.scene.origin + piece.centre());
-  add_vector(line, normalised(area));
-  add_number(line, length(area));
-  const std::size_t sub_patch = mesh.first_sub_patch + std::size_t{local};
-  add_light(line, model.maps.direct_lx, sub_patch, model.scene.channels);
-  add_light(line, model.maps.ambient_lx, sub_patch, model.scene.channels);
-  return line + "\n";
+  return mesh_columns + "," + std::to_string(u) + "," + std::to_string(index.v) +
+         place_and_light(model, sub_patch_piece(model.scene, mesh, local), model.maps.direct_lx, model.maps.ambient_lx,
+                         mesh.first_sub_patch + std::size_t{local});
 }
 
 /// A sub-patch of plane p, which is numbered after the meshes.
 std::string plane_line(const Model& model, std::uint32_t p, std::uint32_t local) {
   const Plane& plane = model.scene.planes[p];
-  const Piece piece = plane_sub_patch(plane, local);
-  const Vec3 area = piece.vector_area();
-  std::string line = std::string(plane.name) + "," + std::to_string(model.scene.meshes.size() + p) + "," +
-                     std::to_string(local % plane.width()) + "," + std::to_string(local / plane.width());
-  add_vector(line, model.scene.origin + piece.centre());
-  add_vector(line, normalised(area));
-  add_number(line, length(area));
-  const std::size_t sub_patch = plane.first_sub_patch + std::size_t{local};
-  add_light(line, model.planes.direct_lx, sub_patch, model.scene.channels);
-  add_light(line, model.planes.ambient_lx, sub_patch, model.scene.channels);
-  return line + "\n";
+  return std::string(plane.name) + "," + std::to_string(model.scene.meshes.size() + p) + "," +
+         std::to_string(local % plane.width()) + "," + std::to_string(local / plane.width()) +
+         place_and_light(model, plane_sub_patch(plane, local), model.planes.direct_lx, model.planes.ambient_lx,
+                         plane.first_sub_patch + std::size_t{local});
 }
 
 }  // namespace

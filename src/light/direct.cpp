@@ -7,6 +7,7 @@
 #include "light/direct.h"
 
 #include "base/features.h"
+#include "base/interrupted.h"
 #include "light/mirror_light.h"
 #include "light/piece_grid.h"
 #include "light/receiver.h"
@@ -26,12 +27,6 @@ constexpr std::uint32_t kManySubPatches = 3;
 constexpr std::int32_t kRounding = 8;
 /// Corners of a cell this near to one plane, of its size, are on it but for rounding.
 constexpr double kPlane = 0x1p-40;
-
-Status interrupted() {
-  Status status;
-  status.code = StatusCode::kInterrupted;
-  return status;
-}
 
 /// In 1/65535.
 std::uint16_t fraction(double x) { return static_cast<std::uint16_t>((x < 1 ? x : 1) * 65535 + 0.5); }

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "base/interrupted.h"
 #include "light/mirror_light.h"
 #include "light/sources.h"
 #include "light/sub_patch_light.h"
@@ -72,8 +73,7 @@ Status light_planes(const Scene& scene, const Geometry& geometry, const Options&
     for (std::uint32_t local = 0; local < plane.sub_patch_count(); ++local) {
       const std::uint32_t index = plane.first_sub_patch + local;
       if (index % kProgressInterval == 0 && !progress.go_on(Stage::kMap, index, 2 * scene.plane_sub_patch_count)) {
-        status.code = StatusCode::kInterrupted;
-        return status;
+        return interrupted();
       }
       SubPatchLight light;
       light.hidden = !receiver.there();

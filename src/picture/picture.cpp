@@ -1,5 +1,6 @@
 #include "picture/picture.h"
 
+#include "base/interrupted.h"
 #include "base/text.h"
 #include "picture/display.h"
 #include "picture/optics.h"
@@ -228,12 +229,6 @@ void show_row(Picture& picture, std::uint32_t row) {
     }
   }
   empty_until(static_cast<std::int32_t>(picture.grid.columns));
-}
-
-Status interrupted() {
-  Status status;
-  status.code = StatusCode::kInterrupted;
-  return status;
 }
 
 constexpr std::uint64_t rounded_up(std::uint64_t bytes) { return (bytes + 7) / 8 * 8; }

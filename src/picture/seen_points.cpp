@@ -1,5 +1,6 @@
 #include "picture/seen_points.h"
 
+#include "base/interrupted.h"
 #include "picture/picture.h"
 #include "picture/view.h"
 #include "picture/visible_lines.h"
@@ -44,11 +45,7 @@ Status see_points(const Scene& scene, const Geometry& geometry, const Options& o
   seen.glass = {};  // what is behind it is asked for
   if (!lines.start(seen, geometry, grid, arena)) return arena.refused();
   for (std::uint32_t y = 0; y < grid.rows; ++y) {
-    if (!progress.go_on(Stage::kPicture, y, grid.rows)) {
-      Status status;
-      status.code = StatusCode::kInterrupted;
-      return status;
-    }
+    if (!progress.go_on(Stage::kPicture, y, grid.rows)) return interrupted();
     tell_row(lines, geometry, grid, y, sink);
   }
   return {};

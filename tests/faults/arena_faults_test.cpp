@@ -8,6 +8,7 @@
 
 #include "shodo/shodo.h"
 #include "support/arena_hook.h"
+#include "support/collected_lines.h"
 #include "support/files.h"
 
 namespace shodo {
@@ -53,11 +54,7 @@ struct Attempt {
   }
   Status draw() {
     picture.clear();
-    const LineSink sink{[](void* to, std::uint32_t, std::span<const std::uint8_t> rgb) {
-                          static_cast<std::string*>(to)->append(rgb.begin(), rgb.end());
-                          return true;
-                        },
-                        &picture};
+    const LineSink sink = collected_in(picture);
     return shodo::draw(*model, {}, sink);
   }
   Status all() {
@@ -74,7 +71,7 @@ struct Attempt {
   std::string name;
   Options options;
   Model* model = nullptr;
-  std::string picture;
+  std::vector<std::uint8_t> picture;
 };
 
 void expect_refusal(const Status& status) {
@@ -83,7 +80,7 @@ void expect_refusal(const Status& status) {
   EXPECT_EQ(status.line, 0u) << "no place in the scene is at fault";
 }
 
-std::uint64_t blocks_of(const Case& c, std::string& picture) {
+std::uint64_t blocks_of(const Case& c, std::vector<std::uint8_t>& picture) {
   Attempt attempt(c);
   ArenaHook hook;
   EXPECT_TRUE(attempt.all().done());
@@ -93,7 +90,7 @@ std::uint64_t blocks_of(const Case& c, std::string& picture) {
 
 TEST(ArenaFaults, ABlockRefusedOnceIsStatus4OrChangesNoPixelAndTheNextCallWorks) {
   for (const Case& c : cases()) {
-    std::string expected;
+    std::vector<std::uint8_t> expected;
     const std::uint64_t blocks = blocks_of(c, expected);
     std::uint64_t rows = 0;
     for (std::uint64_t k = 1; k <= blocks; ++k) {
@@ -129,7 +126,7 @@ TEST(ArenaFaults, ABlockRefusedOnceIsStatus4OrChangesNoPixelAndTheNextCallWorks)
 
 TEST(ArenaFaults, BlocksRefusedFromOneOnAreStatus4) {
   for (const Case& c : cases()) {
-    std::string expected;
+    std::vector<std::uint8_t> expected;
     const std::uint64_t blocks = blocks_of(c, expected);
     for (std::uint64_t k = 1; k <= blocks; ++k) {
       Attempt attempt(c);

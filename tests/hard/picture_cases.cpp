@@ -4,8 +4,7 @@
 #include "hard/hard_case.h"
 #include "hard/run.h"
 #include "hard/scene_text.h"
-#include "picture/visible_lines.h"
-#include "support/picture_twin.h"
+#include "support/seen_row.h"
 #include "visibility/scenes.h"
 
 namespace shodo::hard {
@@ -32,12 +31,7 @@ Seen against_twin(const FullRun& run, std::size_t camera, std::uint32_t width, s
   Seen result;
   if (!lines.start(model.scene, model.geometry, grid, arena)) return result;
   for (std::uint32_t y = 0; y < grid.rows; ++y) {
-    std::vector<TwinHit> seen(grid.columns);
-    lines.begin_row(y);
-    for (VisibleSpan span; lines.next(span);) {
-      for (std::int32_t x = span.x0; x < span.x1; ++x)
-        seen[static_cast<std::uint32_t>(x)] = {span.triangle, span.front};
-    }
+    const std::vector<TwinHit> seen = seen_row(lines, grid, y);
     for (std::uint32_t x = y % every; x < grid.columns; x += every) {
       ++result.samples;
       result.covered += seen[x].triangle != kNone ? 1 : 0;

@@ -42,17 +42,9 @@ CaseResult far_origin() {
   }
   // Not exact, the bare box: what the file's own digits leave is all that is lost. (With something in it that casts
   // shadows, samples round to other lattice points, and a form factor may change by one segment in 64.)
-  const auto bare = [](double far) {
-    SceneText scene([=](const Vec3& v) { return (1.0 / 3) * v + Vec3{far, -far, far}; });
-    scene.material("white", 0.7);
-    scene.object("room");
-    scene.room({0, 0, 0}, {1, 2, 3}, 3, 2);
-    scene.point_light({0.5, 0.25, 2.5}, 100);
-    return scene.text();
-  };
-  const FullRun reference(bare(0), to_the_last_digits());
+  const FullRun reference(bare_room_moved(0), to_the_last_digits());
   for (const double far : {1.0, 1e3, 1e6, 1e9}) {
-    const FullRun run(bare(far), to_the_last_digits());
+    const FullRun run(bare_room_moved(far), to_the_last_digits());
     const double error = difference(reference, run);
     // A coordinate is off by far 2^-53; edges of a twelfth, and the light a sixth away, magnify it.
     found.demand(run.done() && error >= 0 && error < 1e-12 + far * 1e-14,

@@ -126,4 +126,27 @@ std::string SceneText::text(std::uint64_t shuffle) {
   return all + tail_;
 }
 
+std::string bare_room_moved(double far) {
+  SceneText scene([=](const Vec3& v) { return (1.0 / 3) * v + Vec3{far, -far, far}; });
+  scene.material("white", 0.7);
+  scene.object("room");
+  scene.room({0, 0, 0}, {1, 2, 3}, 3, 2);
+  scene.point_light({0.5, 0.25, 2.5}, 100);
+  return scene.text();
+}
+
+void cube_with_strips(SceneText& scene, int strips, double width, bool uncut) {
+  scene.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, 3, 3);
+  scene.quad({0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}, 3, 3);
+  scene.quad({0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}, 3, 3);
+  scene.quad({0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1}, 3, 3);
+  scene.quad({0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}, 3, 3);
+  const double top = strips * width;
+  for (int k = 0; k < (uncut ? 1 : strips); ++k) {
+    const double z0 = uncut ? 0 : k * width, z1 = uncut ? top : (k + 1) * width;
+    scene.quad({1, 0, z0}, {1, 0, z1}, {1, 1, z1}, {1, 1, z0});
+  }
+  scene.quad({1, 0, top}, {1, 0, 1}, {1, 1, 1}, {1, 1, top}, 3, 3);
+}
+
 }  // namespace shodo::hard

@@ -82,6 +82,13 @@ class SceneText {
   int lights_ = 0;
 };
 
+/// A room of 1/3 x 2/3 x 1 with a lamp, moved by (far, -far, far): not exact, its corners are rounded.
+std::string bare_room_moved(double far);
+
+/// A cube of 1 whose wall x = 1 has strips of 1 x `width` at its foot, the meshes from 5 on. With `uncut` one quad
+/// stands for them all.
+void cube_with_strips(SceneText& scene, int strips, double width, bool uncut = false);
+
 /// Exact: as many digits as it takes.
 std::string number(double x);
 

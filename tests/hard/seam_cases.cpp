@@ -5,22 +5,11 @@
 #include "hard/run.h"
 #include "hard/scene_text.h"
 #include "support/aimed_segments.h"
+#include "support/cut_wall.h"
 
 namespace shodo::hard {
 
 namespace {
-
-/// A wall of n x m quads, fronts along `along` x `up`.
-void cut_wall(SceneText& scene, const Vec3& corner, const Vec3& along, const Vec3& up, int n, int m) {
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < m; ++j) {
-      const auto at = [&](int a, int b) {
-        return corner + (static_cast<double>(a) / n) * along + (static_cast<double>(b) / m) * up;
-      };
-      scene.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-    }
-  }
-}
 
 /// Inside a box before it was turned by `back`'s inverse; 40 steps clear of its surface.
 Where in_box(const Model& model, const Map& back, const Vec3& low, const Vec3& high) {

@@ -163,17 +163,9 @@ std::vector<SweepPoint> scales() {
 /// The same room moved: E, by an inexact shift; and the side of a plane by N . P - N . A in single precision.
 std::vector<SweepPoint> offsets() {
   std::vector<SweepPoint> points;
-  const auto make = [](double far) {
-    SceneText scene([=](const Vec3& v) { return (1.0 / 3) * v + Vec3{far, -far, far}; });
-    scene.material("white", 0.7);
-    scene.object("room");
-    scene.room({0, 0, 0}, {1, 2, 3}, 3, 2);
-    scene.point_light({0.5, 0.25, 2.5}, 100);
-    return scene.text();
-  };
-  const FullRun still(make(0), to_the_last_digits());
+  const FullRun still(bare_room_moved(0), to_the_last_digits());
   for (double far = 1; far < 1.1e9; far *= 10) {
-    const FullRun run(make(far), to_the_last_digits());
+    const FullRun run(bare_room_moved(far), to_the_last_digits());
     // The height of the lamp over the floor, a sixth of the room's, by the plane's equation in float.
     const float n[3] = {0.6f, 0, 0.8f};
     const auto of = [&](double x, double z) {
@@ -194,16 +186,7 @@ std::vector<SweepPoint> slivers() {
     SceneText scene;
     scene.material("white", 0.8);
     scene.object("room");
-    scene.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, 3, 3);
-    scene.quad({0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}, 3, 3);
-    scene.quad({0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}, 3, 3);
-    scene.quad({0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1}, 3, 3);
-    scene.quad({0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}, 3, 3);
-    for (int k = 0; k < strips; ++k) {
-      const double z0 = k * width, z1 = (k + 1) * width;
-      scene.quad({1, 0, z0}, {1, 0, z1}, {1, 1, z1}, {1, 1, z0});
-    }
-    scene.quad({1, 0, strips * width}, {1, 0, 1}, {1, 1, 1}, {1, 1, strips * width}, 3, 3);
+    cube_with_strips(scene, strips, width);
     Options options;
     options.scale_rows = false;
     AmbientScene placed(scene.text(), options);

@@ -13,23 +13,12 @@ namespace {
 
 constexpr int kStrips = 20;
 
-/// A cube whose wall x = 1 has 20 strips of 1 x `width` at its foot; strips are the meshes 5 to 24. With `uncut` one
-/// quad stands for them all.
+/// Strips are the meshes 5 to 24.
 std::string strips(double width, bool uncut, double rho = 0.8) {
   SceneText scene;
   scene.material("white", rho);
   scene.object("room");
-  scene.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, 3, 3);
-  scene.quad({0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}, 3, 3);
-  scene.quad({0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}, 3, 3);
-  scene.quad({0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1}, 3, 3);
-  scene.quad({0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}, 3, 3);
-  const double top = kStrips * width;
-  for (int k = 0; k < (uncut ? 1 : kStrips); ++k) {
-    const double z0 = uncut ? 0 : k * width, z1 = uncut ? top : (k + 1) * width;
-    scene.quad({1, 0, z0}, {1, 0, z1}, {1, 1, z1}, {1, 1, z0});
-  }
-  scene.quad({1, 0, top}, {1, 0, 1}, {1, 1, 1}, {1, 1, top}, 3, 3);
+  cube_with_strips(scene, kStrips, width, uncut);
   scene.point_light({0.3, 0.5, 0.6}, 100);
   return scene.text();
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shodo/shodo.h"
+#include "support/collected_lines.h"
 #include "support/files.h"
 
 namespace shodo {
@@ -23,7 +24,7 @@ struct Sweep {
   std::uint32_t refused = 0, done = 0, lit_again = 0, placed_again = 0, geometry_again = 0, rows_recomputed = 0;
 
   /// The picture, or nothing if the budget is refused, as it must be before anything is lit.
-  std::optional<std::string> run(std::uint64_t bytes, std::uint64_t& smallest) {
+  std::optional<std::vector<std::uint8_t>> run(std::uint64_t bytes, std::uint64_t& smallest) {
     FolderReader files(source_folder() + "/tests/cli/scenes");
     std::string_view text;
     EXPECT_TRUE(files.read(scene, text));
@@ -43,12 +44,8 @@ struct Sweep {
       EXPECT_EQ(bytes < smallest_memory(*model, false), !(status = solve(*model, {})).done()) << bytes;
       EXPECT_TRUE(status.done() || statistics(*model).segments_direct == 0);
     }
-    std::string picture;
-    const LineSink sink{[](void* to, std::uint32_t, std::span<const std::uint8_t> rgb) {
-                          static_cast<std::string*>(to)->append(rgb.begin(), rgb.end());
-                          return true;
-                        },
-                        &picture};
+    std::vector<std::uint8_t> picture;
+    const LineSink sink = collected_in(picture);
     if (status.done()) status = draw(*model, {}, sink);
     if (!status.done()) {
       EXPECT_EQ(status.code, StatusCode::kMemory);

@@ -10,6 +10,7 @@
 
 #include "picture/view.h"
 #include "picture/visible_lines.h"
+#include "support/collected_lines.h"
 #include "support/picture_stage.h"
 #include "support/picture_twin.h"
 
@@ -126,13 +127,7 @@ class DrawnScene {
   std::vector<std::uint8_t> draw(const Options& options) {
     link();
     std::vector<std::uint8_t> rgb;
-    LineSink sink;
-    sink.context = &rgb;
-    sink.line = [](void* context, std::uint32_t, std::span<const std::uint8_t> line) {
-      auto& all = *static_cast<std::vector<std::uint8_t>*>(context);
-      all.insert(all.end(), line.begin(), line.end());
-      return true;
-    };
+    const LineSink sink = collected_in(rgb);
     EXPECT_TRUE(draw_picture(scene, geometry, maps, options, {}, arena_, sink).done());
     return rgb;
   }

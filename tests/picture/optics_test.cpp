@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "picture/view.h"
+#include "support/collected_lines.h"
 #include "support/optics_twin.h"
 #include "support/picture_stage.h"
 #include "support/kept_scene.h"
@@ -53,13 +54,7 @@ class OpticsScene {
 
   std::vector<std::uint8_t> draw() {
     std::vector<std::uint8_t> rgb;
-    LineSink sink;
-    sink.context = &rgb;
-    sink.line = [](void* context, std::uint32_t, std::span<const std::uint8_t> line) {
-      auto& all = *static_cast<std::vector<std::uint8_t>*>(context);
-      all.insert(all.end(), line.begin(), line.end());
-      return true;
-    };
+    const LineSink sink = collected_in(rgb);
     const std::size_t before = loaded_.arena.used();
     EXPECT_TRUE(draw_picture(loaded_.scene, geometry_, light_.maps(), options_, {}, loaded_.arena, sink).done());
     EXPECT_EQ(loaded_.arena.used(), before);

@@ -4,9 +4,8 @@
 #include <string>
 
 #include "picture/view.h"
-#include "picture/visible_lines.h"
-#include "support/picture_twin.h"
 #include "support/scene_from_text.h"
+#include "support/seen_row.h"
 #include "visibility/geometry.h"
 
 namespace shodo {
@@ -27,12 +26,7 @@ std::uint64_t expect_twin(const std::string& text, std::uint32_t width, std::uin
     EXPECT_TRUE(lines.start(loaded.scene, geometry, grid, loaded.arena));
     std::uint64_t wrong = 0;
     for (std::uint32_t y = 0; y < grid.rows; ++y) {
-      std::vector<TwinHit> seen(grid.columns);
-      lines.begin_row(y);
-      for (VisibleSpan span; lines.next(span);) {
-        for (std::int32_t x = span.x0; x < span.x1; ++x)
-          seen[static_cast<std::uint32_t>(x)] = {span.triangle, span.front};
-      }
+      const std::vector<TwinHit> seen = seen_row(lines, grid, y);
       for (std::uint32_t x = 0; x < grid.columns; ++x) {
         covered += seen[x].triangle != kNone ? 1 : 0;
         wrong += seen[x] == twin.hit(x, y) ? 0 : 1;

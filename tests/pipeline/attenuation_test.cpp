@@ -4,20 +4,18 @@
 #include <cmath>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 #include "model.h"
+#include "support/collected_lines.h"
 #include "support/solved_scene.h"
 
 namespace shodo {
 namespace {
 
-std::string drawn(SolvedScene& scene) {
-  std::string pixels;
-  const LineSink sink{[](void* to, std::uint32_t, std::span<const std::uint8_t> rgb) {
-                        static_cast<std::string*>(to)->append(rgb.begin(), rgb.end());
-                        return true;
-                      },
-                      &pixels};
+std::vector<std::uint8_t> drawn(SolvedScene& scene) {
+  std::vector<std::uint8_t> pixels;
+  const LineSink sink = collected_in(pixels);
   EXPECT_TRUE(draw(*scene.model, {}, sink).done());
   return pixels;
 }
@@ -44,9 +42,9 @@ TEST(Attenuation, OfHalfAtAnyDistanceIsHalfTheLightOverMirrorsAndInHighlightsToo
     // The distance is the centre's for all of an area light, so the factor is one half whatever it is; but what isn't
     // inverse square isn't interpolated over a patch, and that has an error of its own.
     for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], 5e-3 * (1 + b[k]));
-    const std::string first = drawn(weakened), second = drawn(weak);
+    const std::vector<std::uint8_t> first = drawn(weakened), second = drawn(weak);
     for (std::size_t k = 0; k < first.size(); ++k) {
-      EXPECT_LE(std::abs(static_cast<std::uint8_t>(first[k]) - static_cast<std::uint8_t>(second[k])), 1) << k;
+      EXPECT_LE(std::abs(first[k] - second[k]), 1) << k;
     }
   }
 }

@@ -7,6 +7,7 @@
 
 #include "model.h"
 #include "shodo/shodo.h"
+#include "support/collected_lines.h"
 
 namespace shodo {
 namespace {
@@ -54,15 +55,13 @@ struct WholeRun {
   Status go(const Progress& progress) {
     pixels.clear();
     Status status = solve(*model, progress);
-    const LineSink sink{[](void* to, std::uint32_t, std::span<const std::uint8_t> rgb) {
-                          static_cast<std::string*>(to)->append(rgb.begin(), rgb.end());
-                          return true;
-                        },
-                        &pixels};
+    const LineSink sink = collected_in(pixels);
     if (status.done()) status = draw(*model, progress, sink);
     const SeenSink seen{[](void* to, const SeenPoint& at) {
                           const std::uint32_t values[] = {at.x, at.y, at.mesh, at.light};
-                          static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(values), sizeof values);
+                          const std::uint8_t* bytes = reinterpret_cast<const std::uint8_t*>(values);
+                          auto& all = *static_cast<std::vector<std::uint8_t>*>(to);
+                          all.insert(all.end(), bytes, bytes + sizeof values);
                         },
                         &pixels};
     if (status.done()) status = see(*model, progress, seen);
@@ -71,7 +70,7 @@ struct WholeRun {
 
   std::vector<std::uint64_t> memory;
   Model* model = nullptr;
-  std::string pixels;
+  std::vector<std::uint8_t> pixels;
 };
 
 /// Of every stretch of calls from one loop: its first, second, middle and last.
@@ -102,7 +101,7 @@ TEST(Interruption, AtAnyCallEndsTheRunAndTheNextGivesTheSamePicture) {
     WholeRun run(options);
     Stopper counted;
     ASSERT_TRUE(run.go(counted.progress()).done());
-    const std::string whole = run.pixels;
+    const std::vector<std::uint8_t> whole = run.pixels;
     ASSERT_FALSE(whole.empty());
     const std::vector<std::size_t> stops = calls_worth_stopping_at(counted.noted);
     EXPECT_GT(stops.size(), 15u);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "shodo/shodo.h"
+#include "support/collected_lines.h"
 #include "support/files.h"
 
 namespace shodo {
@@ -36,18 +37,14 @@ class Pipeline {
   Model& model() { return *model_; }
 
   /// The picture after solve and draw, or nothing.
-  std::optional<std::string> picture() {
+  std::optional<std::vector<std::uint8_t>> picture() {
     if (!loaded_.done() || !solve(*model_, {}).done()) return {};
     return drawn();
   }
 
-  std::optional<std::string> drawn() {
-    std::string pixels;
-    const LineSink sink{[](void* to, std::uint32_t, std::span<const std::uint8_t> rgb) {
-                          static_cast<std::string*>(to)->append(rgb.begin(), rgb.end());
-                          return true;
-                        },
-                        &pixels};
+  std::optional<std::vector<std::uint8_t>> drawn() {
+    std::vector<std::uint8_t> pixels;
+    const LineSink sink = collected_in(pixels);
     if (!draw(*model_, {}, sink).done()) return {};
     return pixels;
   }

@@ -4,17 +4,6 @@
 // level may come from light that is computed better, and 12 levels from one pixel on an edge. What shows is more.
 #include <gtest/gtest.h>
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#pragma GCC diagnostic ignored "-Wunused-function"
-#define STB_IMAGE_STATIC
-#define STB_IMAGE_IMPLEMENTATION
-#define STBI_ONLY_PNG
-#include <stb/stb_image.h>
-#pragma GCC diagnostic pop
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -22,6 +11,7 @@
 
 #include "cli/summary.h"
 #include "support/collected_lines.h"
+#include "support/decoded_picture.h"
 #include "support/files.h"
 #include "support/solved_scene.h"
 
@@ -124,22 +114,21 @@ struct DataScene : SolvedScene {
 };
 
 void expect_golden(DataScene& scene, const std::string& name) {
-  const std::string path = source_folder() + "/tests/scenes/" + name + ".png";
-  int width = 0, height = 0, channels = 0;
-  stbi_uc* golden = stbi_load(path.c_str(), &width, &height, &channels, 3);
-  ASSERT_NE(golden, nullptr) << path;
-  ASSERT_EQ(width, static_cast<int>(kWidth));
-  ASSERT_EQ(height, static_cast<int>(kHeight));
+  FolderReader files(source_folder() + "/tests/scenes");
+  std::string_view file;
+  ASSERT_TRUE(files.read(name + ".png", file)) << name;
+  const DecodedPicture golden = decoded_picture(file);
+  ASSERT_EQ(golden.width, kWidth);
+  ASSERT_EQ(golden.height, kHeight);
   const std::vector<std::uint8_t> pixels = scene.picture();
   ASSERT_EQ(pixels.size(), std::size_t{3} * kWidth * kHeight);
   double sum = 0;
   int most = 0;
   for (std::size_t k = 0; k < pixels.size(); ++k) {
-    const int off = std::abs(int{pixels[k]} - int{golden[k]});
+    const int off = std::abs(int{pixels[k]} - int{golden.rgb[k]});
     sum += off;
     most = std::max(most, off);
   }
-  stbi_image_free(golden);
   EXPECT_LT(sum / static_cast<double>(pixels.size()), 0.5);
   EXPECT_LE(most, 12);
 }

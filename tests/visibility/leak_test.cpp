@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "support/aimed_segments.h"
+#include "support/cut_wall.h"
 
 namespace shodo {
 namespace {
@@ -98,27 +99,15 @@ Where in_box(const HandMadeScene& scene, const Turn& turn, const Vec3& low, cons
 /// 40 steps: more than mending moves anything.
 double clearance(const HandMadeScene& scene) { return 40 * scene.geometry.lattice.step(); }
 
-/// A wall of `n` x `m` cells, each a quad of its own.
-void wall(HandMadeScene& scene, const Vec3& corner, const Vec3& along, const Vec3& up, int n, int m) {
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < m; ++j) {
-      const auto at = [&](int a, int b) {
-        return corner + (static_cast<double>(a) / n) * along + (static_cast<double>(b) / m) * up;
-      };
-      scene.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-    }
-  }
-}
-
 /// A closed box, fronts inwards, whose six walls are divided differently: T-junctions along every edge.
 void divided_box(HandMadeScene& scene, const Vec3& size) {
   const Vec3 x{size.x, 0, 0}, y{0, size.y, 0}, z{0, 0, size.z};
-  wall(scene, {}, z, x, 1, 3);
-  wall(scene, y, x, z, 5, 2);
-  wall(scene, {}, x, y, 5, 3);
-  wall(scene, z, y, x, 4, 3);
-  wall(scene, {}, y, z, 2, 7);
-  wall(scene, x, z, y, 3, 4);
+  cut_wall(scene, {}, z, x, 1, 3);
+  cut_wall(scene, y, x, z, 5, 2);
+  cut_wall(scene, {}, x, y, 5, 3);
+  cut_wall(scene, z, y, x, 4, 3);
+  cut_wall(scene, {}, y, z, 2, 7);
+  cut_wall(scene, x, z, y, 3, 4);
 }
 
 TEST(Leaks, NoneFromATurnedBoxThroughItsEdges) {
