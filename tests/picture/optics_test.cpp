@@ -380,5 +380,16 @@ TEST(PictureOptics, TheBackgroundIsSeenByDirectionThroughOpeningsToo) {
                  "light w area quad 1 1 0.2  1 2 0.2  3 2 0.2  3 1 0.2 luminance 500 open\n", small(120, 90, 4));
 }
 
+TEST(PictureOptics, BetweenSamplesNothingIsMissedWhereDirectionsAreShort) {
+  // 16,384 pixels in one row: those in the middle have directions of 46,000 where others have 2^20.
+  expect_as_twin("shodo 1\ndisplay 0 200\ncamera main eye 0 1 5 look 0 1 0 up 0 1 0 fov 20\n"
+                 "background zenith 150 horizon 150 ground 150\n"
+                 "material grey diffuse 0.5\nmaterial glass diffuse 0.02 transmit 0.85\n"
+                 "object pane\nquad glass -50 -20 4.5  50 -20 4.5  50 20 4.5  -50 20 4.5 patches 1 1\n"
+                 "object posts\nquad grey -88 -20 -40  -56 -20 -40  -56 18 -40  -88 18 -40 patches 1 1\n"
+                 "quad grey 44 -20 -40  88 -20 -40  88 18 -40  44 18 -40 patches 1 1\n",
+                 small(16384, 1));
+}
+
 }  // namespace
 }  // namespace shodo
