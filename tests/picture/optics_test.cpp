@@ -391,5 +391,22 @@ TEST(PictureOptics, BetweenSamplesNothingIsMissedWhereDirectionsAreShort) {
                  small(16384, 1));
 }
 
+/// Highlights as far as they go: only those of the lamp, behind the camera, are light here.
+std::vector<std::uint8_t> lit_by(const std::string& light) {
+  const std::string lamp = "light l area quad 1 2.8 3.5  3 2.8 3.5  3 2.8 3.9  1 2.8 3.9 ";
+  OpticsScene scene(kRoom + kBackWall + kGlossy + lamp + light + "\n", small(64, 48));
+  scene.light().fill(0);
+  return scene.draw();
+}
+
+TEST(PictureOptics, HighlightsEndByWhatArrivesOfALampNotByItsLuminanceAlone) {
+  const std::vector<std::uint8_t> plain = lit_by("luminance 3000");
+  EXPECT_NE(plain, lit_by("luminance 300"));
+  EXPECT_EQ(plain, lit_by("luminance 0.03 colour 100000 100000 100000"));
+  // Attenuation is rounded: a level.
+  const std::vector<std::uint8_t> attenuated = lit_by("luminance 0.03 attenuation 0 0 0.00001");
+  for (std::size_t k = 0; k < plain.size(); ++k) ASSERT_NEAR(plain[k], attenuated[k], 1) << k / 3;
+}
+
 }  // namespace
 }  // namespace shodo
