@@ -7,8 +7,8 @@
 
 namespace shodo {
 
-/// `rgb`: 3 bytes a pixel, rows from the top. `write` is called with the file's bytes, in order. False if memory ran
-/// out.
+/// `rgb`: 3 bytes a pixel, rows from the top. `write` is called with the file's bytes, in order. Where memory runs
+/// out std::bad_alloc is thrown, and nothing is held any more; false if the encoder gives up otherwise.
 bool encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgb,
                 void (*write)(void* context, std::string_view bytes), void* context);
 

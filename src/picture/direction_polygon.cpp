@@ -18,7 +18,7 @@ bool split(DirectionPolygon& polygon, const Vec3& side, DirectionPolygon& outsid
     above += height[k] >= 0 ? 1 : 0;
   }
   if (above == polygon.count) return true;
-  // In place: what is kept never overtakes what is read by more than one corner, which waits in `last`.
+  // In place: what is kept never overtakes what is read by more than one corner, which waits in `next`.
   const std::uint32_t count = polygon.count;
   const Vec3 first = polygon.corner[0];
   Vec3 here = first;
@@ -32,7 +32,10 @@ bool split(DirectionPolygon& polygon, const Vec3& side, DirectionPolygon& outsid
       const double low = a < b ? a : b, high = a < b ? b : a;
       const double share = high / (high - low);  // within 0 .. 1, so that corners keep their size
       const Vec3 crossing = share * (a < b ? here : next) + (1 - share) * (a < b ? next : here);
-      if (!outside.push(crossing) || !polygon.push(crossing)) return false;
+      // Corners nearly in the plane may lie before and behind it by turns, by rounding: a crossing between such is left
+      // out where it would take the place of a corner that is still to be read.
+      const bool overtakes = polygon.count == k + 2 && k + 2 < count;
+      if (!outside.push(crossing) || (!overtakes && !polygon.push(crossing))) return false;
     }
     here = next;
   }

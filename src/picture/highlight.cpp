@@ -12,6 +12,7 @@ namespace {
 constexpr double kLobeEnd = 0x1p-20;
 constexpr double kLeastShown = 0.25;  // display steps
 constexpr double kEvenWidth = 0.5;    // of a lobe, radians, at most: how even it is
+constexpr double kMostSteps = 0x1p21;  // more than from one end of the lattice to the other
 constexpr double kShort = 8;          // times a way between samples: the least distance of a light
 constexpr NearTriangles kNothingNear{};
 constexpr std::uint32_t kPoints = 610, kPointStep = 377;  // neighbours of Fibonacci's
@@ -46,14 +47,21 @@ double gap_squared(const LatticeBox& box, const DrawnTriangle& triangle) {
   return sum;
 }
 
-/// The luminance of the brightest lamp, in any channel.
-double brightest(const Scene& scene) {
+double largest_colour(const Scene& scene, const Light& light) {
+  double most = light.colour.c[0];
+  for (std::uint32_t c = 1; c < scene.channels; ++c) most = light.colour.c[c] > most ? light.colour.c[c] : most;
+  return most;
+}
+
+/// The luminance of the brightest lamp, in any channel and from anywhere: what attenuation makes of it grows with the
+/// distance.
+double brightest(const Scene& scene, const Lattice& lattice) {
+  const double metres = kMostSteps * lattice.step() * scene.metres_per_unit;
   double most = 0;
   for (const Light& light : scene.lights) {
     if (light.kind != LightKind::kArea && light.kind != LightKind::kPolyhedron) continue;
-    for (std::uint32_t c = 0; c < scene.channels; ++c) {
-      if (light.strength * light.colour.c[c] > most) most = light.strength * light.colour.c[c];
-    }
+    const double here = largest_colour(scene, light) * light.strength * relative_attenuation(light, metres);
+    if (here > most) most = here;
   }
   return most;
 }
@@ -80,7 +88,7 @@ bool Highlights::start(const Scene& scene, const Geometry& geometry, const RayTr
       !sight_.start(scene, geometry, tree, lamps_, arena)) {
     return false;
   }
-  const double most = brightest(scene);
+  const double most = brightest(scene, geometry.lattice);
   for (std::size_t k = 0; k < lobes_.size(); ++k) {
     lobes_[k] = scene.optics[k].highlight > 0
                     ? lobe_of(scene.optics[k], most, kLeastShown * scene.display.max_cd_m2 / kWhite)
@@ -220,11 +228,16 @@ void Highlights::add_sun(std::uint32_t l, const HighlightLook& look, Sum& sum) c
   add_segment(l, lobe * light.strength * cosine, {look.from, to_sun}, false, sum);
 }
 
-/// cd/m2, by the light's attenuation.
+/// cd/m2, by the light's attenuation; before its colour.
 double Highlights::luminance_of(const Lamp& lamp, const Vec3& point) const {
   const Light& light = scene_->lights[lamp.light];
   if (inverse_square(light)) return light.strength;
   return light.strength * relative_attenuation(light, length(light.position - point) * scene_->metres_per_unit);
+}
+
+/// In the channel in which it is brightest.
+double Highlights::most_luminance_of(const Lamp& lamp, const Vec3& point) const {
+  return largest_colour(*scene_, scene_->lights[lamp.light]) * luminance_of(lamp, point);
 }
 
 /// Whether the lobe shows anything of a lamp: its sphere is seen at a sine of radius / distance around its centre, and
@@ -244,7 +257,7 @@ bool Highlights::reaches(const Lamp& lamp, const HighlightLook& look) const {
   if (!(nearest > reach * squared)) return false;
   const double cosine = nearest / squared;
   const double lobe = look.lobe.strength * look.lobe.raised(cosine < 1 ? cosine * cosine : 1);
-  const double most = lobe * kTwoPi * radius_squared * luminance_of(lamp, look.point);
+  const double most = lobe * kTwoPi * radius_squared * most_luminance_of(lamp, look.point);
   return most * kWhite >= kLeastShown * scene_->display.max_cd_m2 * squared;
 }
 
@@ -252,10 +265,7 @@ bool Highlights::reaches(const Lamp& lamp, const HighlightLook& look) const {
 double Highlights::unshadowed(const Lamp& lamp, const HighlightLook& look, Lamps::FaceSet seen) const {
   Sum sum = {0, 0, 0};
   if (!reaches(lamp, look) || !add_seen(lamp, look, seen, kNothingNear, sum)) return 0;
-  const Rgb& colour = scene_->lights[lamp.light].colour;
-  double most = colour.c[0];
-  for (std::uint32_t c = 1; c < scene_->channels; ++c) most = colour.c[c] > most ? colour.c[c] : most;
-  const double shown = most * luminance_of(lamp, look.point) * sum[0];
+  const double shown = most_luminance_of(lamp, look.point) * sum[0];
   return shown * kWhite >= kLeastShown * scene_->display.max_cd_m2 ? sum[0] : 0;
 }
 

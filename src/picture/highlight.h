@@ -59,6 +59,7 @@ class Highlights {
   HighlightLook look_from(std::uint32_t optics, const HighlightView& view) const;
   static double lobe_at(const HighlightLook& look, const Vec3& to_light);
   double luminance_of(const Lamp& lamp, const Vec3& point) const;
+  double most_luminance_of(const Lamp& lamp, const Vec3& point) const;
   bool reaches(const Lamp& lamp, const HighlightLook& look) const;
   bool light_even(std::uint32_t light, const HighlightLook& a, const HighlightLook& b) const;
   bool lamp_even(const Lamp& lamp, const HighlightLook& a, const HighlightLook& b) const;

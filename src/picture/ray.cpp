@@ -64,8 +64,11 @@ int sign_of(std::int64_t value, const LatticeVector& d, const Corner& a, const C
 }  // namespace
 
 LatticeVector ray_direction(const LatticeVector& any) {
-  const int right = shift_to(largest_component(any), 20);
-  const LatticeVector d{shifted(any.x, right), shifted(any.y, right), shifted(any.z, right)};
+  std::int64_t scale = 1;
+  const std::int64_t largest = largest_component(any);
+  while (largest > 0 && largest * scale < kRayLength / 2) scale *= 2;
+  const int right = shift_to(largest, 20);
+  const LatticeVector d{shifted(any.x * scale, right), shifted(any.y * scale, right), shifted(any.z * scale, right)};
   return d;
 }
 

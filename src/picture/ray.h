@@ -25,7 +25,7 @@ struct Ray {
   LatticeVector direction;  // the largest component is +-kRayLength, or less
 };
 
-/// The direction, halved until its largest component has 20 bits, rounded half away from zero; below 2^63.
+/// The direction, halved or doubled until its largest component has 20 bits, rounded half away from zero; below 2^63.
 LatticeVector ray_direction(const LatticeVector& any);
 
 /// Where a ray meets a triangle: at the fraction distance / speed of the direction.

@@ -100,6 +100,25 @@ TEST(LobeOver, PiecesAddUpToTheWhole) {
   RecordProperty("worst_millionths", static_cast<int>(1e6 * worst));
 }
 
+/// A polygon of which four corners lie in one line, as of a lamp whose faces are cut in three, to within rounding.
+TEST(DirectionPolygon, ACutAlongCornersInOneLineLosesNothing) {
+  const auto area = [](const DirectionPolygon& polygon) {
+    Vec3 sum;
+    for (std::uint32_t k = 0; k < polygon.count; ++k) {
+      sum = sum + cross(polygon.corner[k], polygon.corner[(k + 1) % polygon.count]);
+    }
+    return 0.5 * sum.z;
+  };
+  for (std::uint32_t signs = 0; signs < 16; ++signs) {
+    DirectionPolygon here, outside;
+    for (std::uint32_t k = 0; k < 4; ++k) here.push({1.0 * k, (signs >> k & 1) != 0 ? 1e-17 : -1e-17, 1});
+    here.push({3, 2, 1});
+    here.push({0, 2, 1});
+    ASSERT_TRUE(split(here, {0, 1, 0}, outside));
+    EXPECT_NEAR(area(here) + area(outside), 6, 1e-12) << signs;
+  }
+}
+
 TEST(LobeOver, AHemisphereSendsAllOfTheLobe) {
   // Nearly: twelve sides, two degrees above the plane. The lobe about the normal has its energy k, 1 here.
   DirectionPolygon polygon;

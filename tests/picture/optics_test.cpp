@@ -375,5 +375,33 @@ TEST(PictureOptics, TheBackgroundIsSeenByDirectionThroughOpeningsToo) {
                  "light w area quad 1 1 0.2  1 2 0.2  3 2 0.2  3 1 0.2 luminance 500 open\n", small(120, 90, 4));
 }
 
+TEST(PictureOptics, BetweenSamplesNothingIsMissedWhereDirectionsAreShort) {
+  // 16,384 pixels in one row: those in the middle have directions of 46,000 where others have 2^20.
+  expect_as_twin("shodo 1\ndisplay 0 200\ncamera main eye 0 1 5 look 0 1 0 up 0 1 0 fov 20\n"
+                 "background zenith 150 horizon 150 ground 150\n"
+                 "material grey diffuse 0.5\nmaterial glass diffuse 0.02 transmit 0.85\n"
+                 "object pane\nquad glass -50 -20 4.5  50 -20 4.5  50 20 4.5  -50 20 4.5 patches 1 1\n"
+                 "object posts\nquad grey -88 -20 -40  -56 -20 -40  -56 18 -40  -88 18 -40 patches 1 1\n"
+                 "quad grey 44 -20 -40  88 -20 -40  88 18 -40  44 18 -40 patches 1 1\n",
+                 small(16384, 1));
+}
+
+/// Highlights as far as they go: only those of the lamp, behind the camera, are light here.
+std::vector<std::uint8_t> lit_by(const std::string& light) {
+  const std::string lamp = "light l area quad 1 2.8 3.5  3 2.8 3.5  3 2.8 3.9  1 2.8 3.9 ";
+  OpticsScene scene(kRoom + kBackWall + kGlossy + lamp + light + "\n", small(64, 48));
+  scene.light().fill(0);
+  return scene.draw();
+}
+
+TEST(PictureOptics, HighlightsEndByWhatArrivesOfALampNotByItsLuminanceAlone) {
+  const std::vector<std::uint8_t> plain = lit_by("luminance 3000");
+  EXPECT_NE(plain, lit_by("luminance 300"));
+  EXPECT_EQ(plain, lit_by("luminance 0.03 colour 100000 100000 100000"));
+  // Attenuation is rounded: a level.
+  const std::vector<std::uint8_t> attenuated = lit_by("luminance 0.03 attenuation 0 0 0.00001");
+  for (std::size_t k = 0; k < plain.size(); ++k) ASSERT_NEAR(plain[k], attenuated[k], 1) << k / 3;
+}
+
 }  // namespace
 }  // namespace shodo
