@@ -52,6 +52,7 @@ constexpr Line kLines[] = {
     {CaseGroup::kBlocks, FlagMode::kAuto, blocks(0.01)},
     {CaseGroup::kBlocks, FlagMode::kAuto, blocks(0.003)},
     {CaseGroup::kBlocks, FlagMode::kAuto, blocks(0.0003)},
+    {CaseGroup::kBlocks, FlagMode::kAuto, blocks(0.0001)},
     {CaseGroup::kBlocks, FlagMode::kAuto, {.rule2_repeated = true, .blocks = true}},
     {CaseGroup::kBlocks, FlagMode::kAuto, blocks(0), 1, 1, 1},
     {CaseGroup::kBlocks, FlagMode::kAuto, blocks(0.01), 1, 1, 1},

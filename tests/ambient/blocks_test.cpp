@@ -138,6 +138,34 @@ TEST(Blocks, TheSolutionIsThatOfTheStoredMatrix) {
   }
 }
 
+TEST(Blocks, TheLargestReflectedSumIsThatOfTheStoredMatrix) {
+  // The certified bound goes by it. A dark strip under a white ceiling, its first patch beside a white wall: that row's
+  // sum is the largest, and a third of it is handed down from its blocks.
+  const std::string text =
+      "shodo 1\nmaterial white diffuse 0.9\nmaterial dark diffuse 0.1\n"
+      "object strip\nquad dark 0 0 0  8 0 0  8 1 0  0 1 0 patches 8 1 sub 1 1\n"
+      "object wall\nquad white -0.1 0 0  -0.1 1 0  -0.1 1 0.5  -0.1 0 0.5 patches 1 1 sub 1 1\n"
+      "object ceiling\nquad white 0 -3 9  0 3 9  8 3 9  8 -3 9 patches 6 6 sub 1 1\n";
+  AmbientScene scene(text, with_rules(blocks(0.0005)));
+  scene.light([](const Vec3&, std::uint32_t) { return 1.0; });
+  const StoredMatrix stored(scene);
+  double largest = 0;
+  std::size_t which = 0;
+  for (std::size_t i = 0; i < stored.n; ++i) {
+    double sum = 0;
+    for (std::size_t j = 0; j < stored.n; ++j) {
+      sum += (scene.patches[j].mesh == 0 ? 0.1 : 0.9) * stored.form_factor(i, j);
+    }
+    if (sum > largest) {
+      largest = sum;
+      which = i;
+    }
+  }
+  EXPECT_EQ(which, 0u);
+  EXPECT_GT(stored.matrix.surfaces.blocks.size(), 0u);
+  EXPECT_NEAR(stored.matrix.reflected[0], largest, 1e-12 * largest);
+}
+
 TEST(Blocks, ALooseToleranceHasABoundThatHolds) {
   for (const double tolerance : {0.3, 1e-1, 1e-2, 1e-4}) {
     Options options = with_rules(blocks(1e-2));
@@ -180,6 +208,27 @@ TEST(Blocks, ErrorToZeroGivesTheAnswerWithoutBlocks) {
     }
   }
   EXPECT_LT(last, 1e-9);  // the same pairs, summed in another order
+}
+
+TEST(Blocks, OfShapesWithoutAPlaceOnTheLatticeLinksAreFoundToo) {
+  // An arrowhead over the floor, both ways: what it gets from the room, and what the floor below loses of the ceiling's
+  // light and gets of the arrowhead's.
+  const std::string text = grey(0.5) + box_walls(4, 3, 2.5, 6, 5, 4, "white") +
+                           "object up\nquad white  1 1 1  2.5 1.5 1  1 2 1  1.5 1.5 1  patches 1 1 sub 1 1\n"
+                           "object down\nquad white  1 1 0.98  1.5 1.5 0.98  1 2 0.98  2.5 1.5 0.98"
+                           "  patches 1 1 sub 1 1\n";
+  AmbientScene none(text, with_rules({})), linked(text, with_rules(blocks(0)));
+  for (AmbientScene* scene : {&none, &linked}) {
+    scene->light([](const Vec3& p, std::uint32_t) { return 50 + 20 * p.y; });
+    ASSERT_TRUE(scene->solve().done());
+  }
+  int arrows = 0;
+  for (std::size_t i = 0; i < none.patches.size(); ++i) {
+    if (none.patches[i].mesh < 6) continue;
+    ++arrows;
+    EXPECT_NEAR(linked.ambient.patch_lx[i], none.ambient.patch_lx[i], 0.05 * none.ambient.patch_lx[i]) << i;
+  }
+  EXPECT_EQ(arrows, 2);
 }
 
 /// What is displayed as white counts as white: a garden in the sun must not make all that is indoors too dark to

@@ -85,8 +85,8 @@ std::string quad_of(const std::string& name, std::initializer_list<Vec3> corners
 }
 
 TEST(VisibleFraction, OfAnUnevenPatchWhoseWideHalfIsHiddenIsThePartThatIsLeft) {
-  // A patch that narrows to a fifth, its wide half, two thirds of its area, under a screen; once it ends farther along x
-  // than the other patch and once not, which is what their order goes by.
+  // A patch that narrows to a fifth, its wide half, two thirds of its area, under a screen. Once it ends farther along
+  // x than the other patch and once not, which is what their order goes by.
   const std::string floor = kHead.substr(0, kHead.find("object")) +
                             quad_of("narrowing", {{0, 0, 0}, {1, 0, 0}, {0.6, 1, 0}, {0.4, 1, 0}});
   const std::string screen = quad_of("screen", {{-1, -1, 0.02}, {2, -1, 0.02}, {2, 0.5, 0.02}, {-1, 0.5, 0.02}});

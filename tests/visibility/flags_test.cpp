@@ -98,6 +98,20 @@ TEST(Flags, SceneFlagsAreReadInSceneModeOnly) {
   EXPECT_TRUE(lit(screened("", "", ""), FlagMode::kScene) == both.on);
 }
 
+TEST(Flags, TakeTheBytesThatTheySay) {
+  std::string text = "shodo 1\nmaterial white diffuse 0.5\nlight lamp point at 0 0 3 intensity 1\n";
+  for (int k = 0; k < 9; ++k) {
+    const std::string name = std::to_string(k);
+    text += "object o" + name + "\nquad white 0 0 " + name + "  1 0 " + name + "  1 1 " + name + "  0 1 " + name + "\n";
+    TestScene loaded(text);
+    ASSERT_TRUE(loaded.status.done()) << to_text(loaded.status);
+    const std::size_t before = loaded.arena.used();
+    FlagTables flags;
+    ASSERT_TRUE(flags.fill(loaded.scene, false, loaded.arena));
+    EXPECT_EQ(loaded.arena.used() - before, FlagTables::bytes(loaded.scene)) << k;
+  }
+}
+
 TEST(Flags, AnObjectThatDoesNotBlockLetsLightOfThatSetPass) {
   const LitBits shaded = lit(screened("", "", ""), FlagMode::kScene);
   const LitBits direct = lit(screened("direct -blocks", "", ""), FlagMode::kScene);
