@@ -1,6 +1,7 @@
 #include "ambient/gather.h"
 
 #include "ambient/gather_group.h"
+#include "base/interrupted.h"
 #include "base/quadrature.h"
 #include "scene/sub_patches.h"
 
@@ -150,10 +151,7 @@ Status gather_illuminance(const Scene& scene, const Geometry& geometry, std::spa
         region_end = block ? surfaces.end(node) : surfaces.mesh_begin[k + 1];
       }
       if (block) continue;
-      if (done++ % kProgressInterval == 0 && !progress.go_on(Stage::kSolution, done, scene.patch_count)) {
-        status.code = StatusCode::kInterrupted;
-        return status;
-      }
+      if (done++ % kProgressInterval == 0 && !progress.go_on(Stage::kSolution, done, scene.patch_count)) return interrupted();
       if (surfaces.root_area[node] > 0) gather.patch(node, k);
     }
   }

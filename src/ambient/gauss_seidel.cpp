@@ -2,6 +2,7 @@
 
 #include "ambient/slow_light.h"
 #include "base/features.h"
+#include "base/interrupted.h"
 
 namespace shodo {
 
@@ -315,23 +316,19 @@ Status solve_rows(const DirectLight& direct, const Intersector& intersector, con
   prepare(run);
   Watch watch;
   double part = kPartOfBound;  // of the tolerance: what conjugate gradients are asked for
-  Status status;
   for (;;) {
     const SweepResult result = sweep_once(run);
-    if (!result.finished) {
-      status.code = StatusCode::kInterrupted;
-      return status;
-    }
+    if (!result.finished) return interrupted();
     ++statistics.sweeps;
     const Bound bound = bound_after(run, result);
     statistics.solution_bound = bound.error;
     const double change = largest_change(result);
     watch.note(change);
     const bool only_rounding = bound.error < kNoBound && bound.error <= 2 * bound.rounding;
-    if (bound.error <= tolerance || only_rounding || !(change > 0) || watch.hopeless()) return status;
+    if (bound.error <= tolerance || only_rounding || !(change > 0) || watch.hopeless()) return {};
     const double goal = tolerance > 2 * bound.rounding ? tolerance : 2 * bound.rounding;
     if (bound.error < kNoBound && part > kLeastPart && watch.slow(bound.error, goal, run.channels)) {
-      status = accelerate(run, part * goal, result.largest_of_all(), statistics);
+      const Status status = accelerate(run, part * goal, result.largest_of_all(), statistics);
       if (!status.done()) return status;
       part *= kPartOfBound;
       continue;

@@ -2,6 +2,7 @@
 
 #include "ambient/exchange_row.h"
 #include "base/features.h"
+#include "base/interrupted.h"
 
 namespace shodo {
 
@@ -247,12 +248,8 @@ Status build_matrix(const DirectLight& direct, const Progress& progress, Interse
   for (std::uint8_t g = 0; g < matrix.sparsity.now(); ++g) earlier[g] = RowCursor(matrix, g);
   Intersector uncounted(intersector);
   MeshWalk at_i(matrix.surfaces, 0);
-  Status status;
   for (std::uint32_t i = 0; i < n; ++i) {
-    if (!progress.go_on(Stage::kFormFactors, i, n)) {
-      status.code = StatusCode::kInterrupted;
-      return status;
-    }
+    if (!progress.go_on(Stage::kFormFactors, i, n)) return interrupted();
     at_i.go_to(i);
     const UpperSums upper = add_rows(pass, i, at_i, earlier, intersector, uncounted, errors);
     if (matrix.surfaces.is_block(i)) {
@@ -263,7 +260,7 @@ Status build_matrix(const DirectLight& direct, const Progress& progress, Interse
   }
   statistics.form_factors_computed += errors.computed;
   count_rows(matrix, statistics);
-  return status;
+  return {};
 }
 
 std::uint64_t matrix_bytes(const Scene& scene, const Geometry& geometry, const Options& options) {

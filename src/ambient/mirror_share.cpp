@@ -1,5 +1,6 @@
 #include "ambient/mirror_share.h"
 
+#include "base/interrupted.h"
 #include "light/piece_grid.h"
 #include "scene/patch_reflectance.h"
 #include "visibility/half_open.h"
@@ -160,19 +161,15 @@ Status share_over_mirrors(const Scene& scene, const Geometry& geometry, std::spa
   const IntersectorScratch seeking(intersector);
   if (!intersector.start(arena)) return arena.refused();
   MirrorShare mirrors(scene, geometry, patches, direct, ambient.patch_lx, intersector);
-  Status status;
   for (double& value : share_lx) value = 0;
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
     for (std::uint32_t local = 0; local < scene.meshes[m].patch_count(); ++local) {
       const std::uint32_t i = scene.meshes[m].first_patch + local;
-      if (!progress.go_on(Stage::kFormFactors, i, scene.patch_count)) {
-        status.code = StatusCode::kInterrupted;
-        return status;
-      }
+      if (!progress.go_on(Stage::kFormFactors, i, scene.patch_count)) return interrupted();
       mirrors.gather(m, local, &share_lx[std::size_t{i} * scene.channels]);
     }
   }
-  return status;
+  return {};
 }
 
 }  // namespace shodo

@@ -2,6 +2,7 @@
 
 #include "ambient/patch_shape.h"
 #include "ambient/sample_set.h"
+#include "base/interrupted.h"
 #include "light/polygon_factor.h"
 #include "light/receiver_group.h"
 #include "scene/mesh.h"
@@ -203,11 +204,7 @@ Status gather_planes(const SolvedPatches& solved, Intersector& intersector, cons
     const PlaneReceiver receiver(solved.geometry, plane);
     for (std::uint32_t p = 0; p < plane.nu * plane.nv && receiver.there(); ++p) {
       const std::uint32_t done = scene.plane_sub_patch_count + plane.first_sub_patch + p * plane.su * plane.sv;
-      if (!progress.go_on(Stage::kMap, done, 2 * scene.plane_sub_patch_count)) {
-        Status status;
-        status.code = StatusCode::kInterrupted;
-        return status;
-      }
+      if (!progress.go_on(Stage::kMap, done, 2 * scene.plane_sub_patch_count)) return interrupted();
       gather.gather_patch(plane, receiver.receiver(), p % plane.nu, p / plane.nu, scratch);
     }
   }

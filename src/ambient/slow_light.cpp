@@ -1,5 +1,7 @@
 #include "ambient/slow_light.h"
 
+#include "base/interrupted.h"
+
 namespace shodo {
 
 namespace {
@@ -223,11 +225,9 @@ double step(const Search& search, double length) {
 Status solve_slow_light(const SolverRun& run, std::uint32_t channel, double allowed_lx, Statistics& statistics) {
   const Surfaces& surfaces = run.matrix.surfaces;
   const Search search{run, channel, surfaces, vectors_of(run.solver, surfaces.size()), surfaces.scene->channels};
-  Status interrupted;
-  interrupted.code = StatusCode::kInterrupted;
   start(search);
   ++statistics.sweeps;
-  if (!multiply(search, true)) return interrupted;
+  if (!multiply(search, true)) return interrupted();
   settle_pairs(search);
   double most = first_residual(search), least = most, size = 0;
   for (std::uint32_t since = 0; most > allowed_lx && since < kPatience; ++since) {
@@ -237,7 +237,7 @@ Status solve_slow_light(const SolverRun& run, std::uint32_t channel, double allo
     turn(search, size > 0 ? next / size : 0);
     size = next;
     ++statistics.sweeps;
-    if (!multiply(search, false)) return interrupted;
+    if (!multiply(search, false)) return interrupted();
     const double curvature = curvature_of(search);
     if (!(curvature > 0)) break;
     most = step(search, size / curvature);
