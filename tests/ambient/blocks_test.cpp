@@ -287,18 +287,24 @@ TEST(Blocks, RowsComputedAgainGiveTheBitsOfRowsKept) {
 }
 
 TEST(Blocks, HiddenPatchesTakeNoPartInTheirBlocks) {
-  AmbientScene scene(grey(0.5) + box_walls(1, 1, 1, 4, 4, 4, "white"), with_rules(blocks(1)));
-  scene.light([](const Vec3&, std::uint32_t) { return 100.0; });
-  scene.visible[3] = 0;
-  scene.patches[5].dropped = 1;
-  for (std::size_t i = 16; i < 32; ++i) scene.visible[i] = 0;  // a whole mesh
-  ASSERT_TRUE(scene.solve().done());
-  const StoredMatrix stored(scene);
-  for (std::size_t j = 0; j < stored.n; ++j) {
-    for (const std::size_t gone : {3, 5, 16, 31}) {
-      EXPECT_EQ(scene.ambient.patch_lx[gone], 0);
-      EXPECT_EQ(stored.form_factor(gone, j), 0);
-      EXPECT_EQ(stored.form_factor(j, gone), 0);
+  for (const bool rule2 : {false, true}) {
+    Rules rules = blocks(1);
+    rules.rule2 = rule2;
+    AmbientScene scene(grey(0.5) + box_walls(1, 1, 1, 4, 4, 4, "white"), with_rules(rules));
+    scene.light([](const Vec3&, std::uint32_t) { return 100.0; });
+    scene.visible[3] = 0;
+    scene.patches[5].dropped = 1;
+    for (std::size_t i = 16; i < 32; ++i) scene.visible[i] = 0;  // a whole mesh
+    ASSERT_TRUE(scene.solve().done());
+    const std::uint64_t nonzeros = scene.statistics.nonzeros;
+    const StoredMatrix stored(scene);
+    EXPECT_EQ(nonzeros, static_cast<std::uint64_t>(std::ranges::count_if(stored.f, [](double f) { return f > 0; })));
+    for (std::size_t j = 0; j < stored.n; ++j) {
+      for (const std::size_t gone : {3, 5, 16, 31}) {
+        EXPECT_EQ(scene.ambient.patch_lx[gone], 0);
+        EXPECT_EQ(stored.form_factor(gone, j), 0);
+        EXPECT_EQ(stored.form_factor(j, gone), 0);
+      }
     }
   }
 }

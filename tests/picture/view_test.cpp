@@ -67,6 +67,14 @@ TEST(View, KeepsItsLimitsForAnySizeAndAngle) {
   }
 }
 
+TEST(View, KeepsItsLimitsHoweverStepsAreRounded) {
+  // Steps of few units, each rounded by up to a half, 65,536 of them from the middle to the sides.
+  for (int k = 0; k < 200; ++k) {
+    const Vec3 look{std::sin(k * 1.7), 0.6 * std::sin(k * 0.9), std::cos(k * 1.7)};
+    worst_error(camera_at({0, 0, 0}, look, 1 + k % 5), 16384, 16384);  // which asks for the limit of directions
+  }
+}
+
 // Right is right, and up is up: a sample right of the centre looks right.
 TEST(View, IsNotMirrored) {
   const View view = view_of(camera_at({0, 0, 0}, {0, 0, -1}), Lattice{1}, 64, 48);
