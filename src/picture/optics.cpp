@@ -11,7 +11,8 @@ constexpr std::uint32_t kMostFine = 1u << 28;     // of one surface between samp
 // By how much a highlight may bend: a step, and 1/64 of its value. It is then filled by two lines, which are off by a
 // quarter of that.
 constexpr std::uint32_t kBends = 1u << kFineBits;
-constexpr double kBendsOf = 1.0 / 64;
+constexpr double kBendsOf = 1.0 / 64;              // of a highlight
+constexpr double kBackgroundBendsOf = 1.0 / 256;  // of a plain background: under a level of sRGB where it is bright
 
 double distance(double a, double b) { return a < b ? b - a : a - b; }
 
@@ -105,6 +106,10 @@ bool PictureOptics::start(const Shown& shown, const Display& display, Arena& are
     return false;
   }
   black_ = paths_.fine_steps(display.min_cd_m2);
+  const Vec3 across = vector_of(shown.grid.across()), square = cross(across, vector_of(shown.grid.down()));
+  const double eye = magnitude(dot(square, vector_of(shown.grid.direction(0, 0)))) / length(square);
+  const double reach = kBackgroundAngle * eye / length(across);
+  background_reach_ = reach < 2 ? 1 : reach < kBackgroundReach ? static_cast<std::int32_t>(reach) : kBackgroundReach;
   for (std::size_t m = 0; m < whole_.size(); ++m) whole_[m] = scene.meshes[m].kind == MeshKind::kQuad ? 1 : 0;
   const std::span<const DrawnTriangle> drawn = shown.geometry.drawn;
   for (std::size_t t = 1; t < drawn.size(); ++t) {
@@ -218,17 +223,18 @@ bool PictureOptics::same_surface(const PathHit& a, const PathHit& b) const {
 
 /// Over how many samples the k-th hit, the background, may be told from the ends.
 std::int32_t PictureOptics::background_reach(const PathRecord& record, std::uint32_t k) const {
-  if (!paths_.has_picture()) return kBackgroundReach;
+  if (!paths_.has_picture()) return background_reach_;
   return seen_straight(record, k) ? kLongestReach : 2;
 }
 
 /// Whether the samples between see what both see.
 PictureOptics::Join PictureOptics::join(const PathRecord& a, const PathRecord& b) const {
   if (a.count != b.count || a.count > kMostPathHits || a.sought != b.sought) return Join::kNo;
-  bool shines = false;
+  bool shines = false, bends = false;
   for (std::uint32_t k = 0; k < a.count; ++k) {
     if (!same_surface(a.hit[k], b.hit[k])) return Join::kNo;
     if (a.hit[k].triangle == kNone && b.x - a.x > background_reach(a, k)) return Join::kNo;
+    bends = bends || may_bend(a.hit[k]);
     shines = shines || a.hit[k].shines;
   }
   // What was sought though the scanline knew it is met at a grazing angle.
@@ -245,7 +251,7 @@ PictureOptics::Join PictureOptics::join(const PathRecord& a, const PathRecord& b
     const bool lamps = here.lamps || there.lamps;
     if (!paths_.highlights().even(paths_.optics_at(at_a), from, to, lamps)) return Join::kNo;
   }
-  return shines ? Join::kIfMiddleAgrees : Join::kYes;
+  return bends ? Join::kIfMiddleAgrees : Join::kYes;
 }
 
 /// Whether no triangle comes between the k-th surface and the one before it, from either sample's ray to the other's.
@@ -270,16 +276,22 @@ bool PictureOptics::nothing_between(const PathRecord& a, const PathRecord& b, st
   });
 }
 
-/// Whether highlights go on as lines.
+/// Highlights and a plain background are shown as lines between two samples, if they are.
+bool PictureOptics::may_bend(const PathHit& hit) const {
+  return hit.shines || (hit.triangle == kNone && !paths_.has_picture());
+}
+
+/// Whether what may bend goes on as lines.
 bool PictureOptics::agrees(const PathRecord& a, const PathRecord& middle, const PathRecord& b) const {
   if (middle.count != a.count || middle.sought != a.sought) return false;
   const double along = static_cast<double>(middle.x - a.x) / (b.x - a.x);
   for (std::uint32_t k = 0; k < a.count; ++k) {
     if (!same_surface(a.hit[k], middle.hit[k])) return false;
-    if (!a.hit[k].shines) continue;
+    if (!may_bend(a.hit[k])) continue;
+    const double of = a.hit[k].shines ? kBendsOf : kBackgroundBendsOf;
     for (std::uint32_t c = 0; c < scene_->channels; ++c) {
       const double from = a.hit[k].shown[c], to = b.hit[k].shown[c], found = middle.hit[k].shown[c];
-      if (distance(from + along * (to - from), found) > kBends + kBendsOf * found) return false;
+      if (distance(from + along * (to - from), found) > kBends + of * found) return false;
     }
   }
   return true;

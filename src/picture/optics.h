@@ -10,10 +10,10 @@
 // quarter of a lobe's width, and the sample in the middle, which is traced, agrees.
 //
 // Exact: which surfaces traced samples see, and that no others do between, to the two lattice steps to which the
-// points of mirrors are rounded. Approximate: map coordinates between to 1/32 sub-patch, as everywhere; the background
-// as a line over at most 16 samples, or 2 of a picture in a mirror; seen past glass alone, a picture is looked up for
-// each. Only for scenes with such materials or a background. Bytes: light_path.h's; 9,760 for traced samples, 1,024 a
-// channel, 1 a mesh.
+// points of mirrors are rounded. Approximate: map coordinates between to 1/32 sub-patch, as everywhere; a plain
+// background as lines over at most 16 samples and an eighth of a radian, where the sample in the middle agrees to 1/256,
+// its picture in a mirror over 2; seen past glass alone, a picture is looked up for each. Only for scenes with such
+// materials or a background. Bytes: light_path.h's; 9,760 for traced samples, 1,024 a channel, 1 a mesh.
 #pragma once
 
 #include <cstdint>
@@ -63,6 +63,7 @@ class PictureOptics {
  private:
   static constexpr std::int32_t kLongestReach = 128;
   static constexpr std::int32_t kBackgroundReach = 16;
+  static constexpr double kBackgroundAngle = 1.0 / 8;
   static constexpr std::uint32_t kRecords = 10;  // kLongestReach is halved 7 times
 
   enum class Join : std::uint8_t { kNo, kIfMiddleAgrees, kYes };
@@ -73,6 +74,7 @@ class PictureOptics {
   std::uint64_t rolled(std::uint64_t fine) const;
   bool join_up_to(std::int32_t x, std::uint32_t& left);
   Join join(const PathRecord& a, const PathRecord& b) const;
+  bool may_bend(const PathHit& hit) const;
   bool same_surface(const PathHit& a, const PathHit& b) const;
   bool nothing_between(const PathRecord& a, const PathRecord& b, std::uint32_t k) const;
   bool agrees(const PathRecord& a, const PathRecord& middle, const PathRecord& b) const;
@@ -93,6 +95,7 @@ class PictureOptics {
   std::span<std::uint32_t> steps_;      // display steps of one surface there
   bool roll_ = false;
   std::uint64_t black_ = 0;             // fine steps of the display's MIN
+  std::int32_t background_reach_ = 0;   // samples whose directions differ by kBackgroundAngle at most
   // The run of samples at work.
   SampleRun run_;
   std::uint32_t triangle_ = kNone, row_ = 0;

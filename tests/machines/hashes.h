@@ -22,7 +22,7 @@ inline constexpr Hashes kHashes[] = {
     {"blocks", 0x58f188843dbe3202, 0x86e971cc73a1a6c2},
     {"planes", 0x8f1af93ae34d0b8b, 0x76cc9a3e852eac5d},
     {"textures", 0xcbdb3cfe3740623d, 0x5804eee79f24b372},
-    {"glass", 0xd8703eb4ea4f305a, 0x7d15d6c739952cef},
+    {"glass", 0xd8703eb4ea4f305a, 0x4f32996de6ee3e9e},
     {"day", 0xd94e515e7cd8b47b, 0xf54d3eba49ea3ad5},
 };
 

@@ -375,6 +375,17 @@ TEST(PictureOptics, TheBackgroundIsSeenByDirectionThroughOpeningsToo) {
                  "light w area quad 1 1 0.2  1 2 0.2  3 2 0.2  3 1 0.2 luminance 500 open\n", small(120, 90, 4));
 }
 
+TEST(PictureOptics, APlainBackgroundIsSeenByDirectionAtWideAnglesToo) {
+  // A picture 170 degrees high, its horizon askew: brightness bends between samples that are many degrees apart.
+  for (const auto& [width, height] : {std::pair{64u, 48u}, {64u, 8u}, {33u, 24u}}) {
+    expect_as_twin("shodo 1\ndisplay 0 200\ncamera main eye 0 1 5 look 0.2 1.1 0 up 0.3 1 0 fov 170\n"
+                   "background zenith 20 50 120 horizon 150 160 180 ground 60 50 30\n"
+                   "material grey diffuse 0.5\n"
+                   "object o\nquad grey -1 0 -2  1 0 -2  1 2 -2  -1 2 -2 patches 1 1\n",
+                   small(width, height));
+  }
+}
+
 TEST(PictureOptics, BetweenSamplesNothingIsMissedWhereDirectionsAreShort) {
   // 16,384 pixels in one row: those in the middle have directions of 46,000 where others have 2^20.
   expect_as_twin("shodo 1\ndisplay 0 200\ncamera main eye 0 1 5 look 0 1 0 up 0 1 0 fov 20\n"
