@@ -1,6 +1,5 @@
 #include "cli/option_table.h"
 
-
 #include "cli/option_values.h"
 
 namespace shodo {
