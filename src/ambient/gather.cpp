@@ -151,7 +151,9 @@ Status gather_illuminance(const Scene& scene, const Geometry& geometry, std::spa
         region_end = block ? surfaces.end(node) : surfaces.mesh_begin[k + 1];
       }
       if (block) continue;
-      if (done++ % kProgressInterval == 0 && !progress.go_on(Stage::kSolution, done, scene.patch_count)) return interrupted();
+      if (done++ % kProgressInterval == 0 && !progress.go_on(Stage::kSolution, done, scene.patch_count)) {
+        return interrupted();
+      }
       if (surfaces.root_area[node] > 0) gather.patch(node, k);
     }
   }

@@ -11,8 +11,8 @@
 //
 // Exact: which surfaces traced samples see, and that no others do between, to the two lattice steps to which the
 // points of mirrors are rounded. Approximate: map coordinates between to 1/32 sub-patch, as everywhere; a plain
-// background as lines over at most 16 samples and an eighth of a radian, where the sample in the middle agrees to 1/256,
-// its picture in a mirror over 2; seen past glass alone, a picture is looked up for each. Only for scenes with such
+// background as lines over at most 16 samples and an eighth of a radian, where the middle one agrees to 1/256, its
+// picture in a mirror over 2; seen past glass alone, a picture is looked up for each. Only for scenes with such
 // materials or a background. Bytes: light_path.h's; 9,760 for traced samples, 1,024 a channel, 1 a mesh.
 #pragma once
 
