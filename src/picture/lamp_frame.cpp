@@ -47,6 +47,7 @@ CellBox LampFrame::box(std::span<const Vec3> corners) const {
   }
   CellBox box;
   for (std::uint32_t k = 0; k < 2; ++k) {
+    if (!(low[k] <= high[k])) return CellBox::all();  // the lamp itself is beside the eye, by rounding
     box.low[k] = cell(low[k] - kMargin);
     box.high[k] = cell(high[k] + kMargin);
   }

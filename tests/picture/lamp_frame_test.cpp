@@ -105,5 +105,14 @@ TEST(LampFrame, ALampSeenEdgeOnHasOneCellAlongItsWidth) {
   EXPECT_EQ(box.high[along], 255);
 }
 
+TEST(LampFrame, BesideALampWithACornerBesideTheEyeNothingIsApart) {
+  DirectionPolygon lamp;
+  for (const Vec3& corner : {Vec3{1, 0, 0}, Vec3{0, 1, 1}, Vec3{-1, 0, 1}}) lamp.push(corner);
+  LampFrame frame;
+  frame.start(lamp, {0, 0, 1});
+  const Vec3 here[3] = {{0, 0.9, 1}, {0, 1, 1}, {-0.1, 0.9, 1}}, there[3] = {{-1, 0, 1}, {-0.9, 0, 1}, {-0.9, 0.1, 1}};
+  EXPECT_FALSE(frame.box(here).apart(frame.box(there)));
+}
+
 }  // namespace
 }  // namespace shodo
