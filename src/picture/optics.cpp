@@ -8,11 +8,11 @@ namespace {
 
 constexpr double kTolerance = 1.0 / 32;           // sub-patches, as in shade.h
 constexpr std::uint32_t kMostFine = 1u << 28;     // of one surface between samples: 128 times white
-// By how much a highlight may bend: a step, and 1/64 of its value. It is then filled by two lines, which are off by a
-// quarter of that.
+// By how much a highlight or a plain background may bend: a step, and a part of its value. It is then filled by two
+// lines, which are off by a quarter of that.
 constexpr std::uint32_t kBends = 1u << kFineBits;
-constexpr double kBendsOf = 1.0 / 64;              // of a highlight
-constexpr double kBackgroundBendsOf = 1.0 / 256;  // of a plain background: under a level of sRGB where it is bright
+constexpr double kBendsOf = 1.0 / 64;             // of a highlight
+constexpr double kBackgroundBendsOf = 1.0 / 256;  // under a level of sRGB where it is bright
 
 double distance(double a, double b) { return a < b ? b - a : a - b; }
 

@@ -98,6 +98,15 @@ struct AmbientScene {
   std::vector<float> visible, lights;
 };
 
+/// In the scene's arena.
+inline Surfaces surfaces_of(AmbientScene& scene) {
+  Surfaces surfaces;
+  EXPECT_TRUE(gather_surfaces(scene.loaded.scene, scene.geometry, scene.patches, scene.direct, scene.options,
+                              scene.loaded.arena, surfaces)
+                  .done());
+  return surfaces;
+}
+
 /// Solves a scene with room for all rows, then in the smallest memory and in so many bytes `more`: rows that are
 /// computed again give the bits of rows kept. `also(tight, arena, more)` checks each solution further.
 template <class Light, class Also>
@@ -132,9 +141,7 @@ struct StoredMatrix {
     Arena& arena = scene.loaded.arena;
     matrix.options = &scene.options;
     std::span<double> scratch[3];
-    Status status = gather_surfaces(scene.loaded.scene, scene.geometry, scene.patches, scene.direct, scene.options,
-                                    arena, matrix.surfaces);
-    EXPECT_TRUE(status.done());
+    matrix.surfaces = surfaces_of(scene);
     EXPECT_TRUE(prepare_matrix(scene.direct, arena, matrix).done());
     const std::size_t nodes = matrix.surfaces.size();
     const std::size_t sizes[3] = {nodes, nodes, nodes * scene.loaded.scene.channels};
@@ -144,8 +151,7 @@ struct StoredMatrix {
     const FirstPassScratch first{scratch[0], scratch[1], scratch[2]};
     // The columns that rule 2+ put back, by the solution that the scene has: as the stage itself goes on.
     do {
-      status = build_matrix(scene.direct, {}, intersector, first, matrix, scene.statistics);
-      EXPECT_TRUE(status.done());
+      EXPECT_TRUE(build_matrix(scene.direct, {}, intersector, first, matrix, scene.statistics).done());
     } while (scene.options.rules.rule2_repeated && !scene.ambient.patch_lx.empty() &&
              matrix.sparsity.restore(matrix.surfaces, scene.direct, scene.ambient.patch_lx));
     for (std::uint8_t g = 0; g < matrix.generations(); ++g) EXPECT_EQ(matrix.stores[g].rows(), nodes);

@@ -210,10 +210,7 @@ TEST(FormFactor, EveryTierAgreesWithPlainSummationWithinItsStatedError) {
     askew(random, distance, trial % 2 == 0 ? 0 : 0.1, p, q);
     const std::string text = quad("a", {p[0], p[1], p[2], p[3]}) + quad("b", {q[0], q[1], q[2], q[3]});
     AmbientScene scene(grey(0.5) + text, exact_rows());
-    Surfaces surfaces;
-    ASSERT_TRUE(gather_surfaces(scene.loaded.scene, scene.geometry, scene.patches, scene.direct, scene.options,
-                                scene.loaded.arena, surfaces)
-                    .done());
+    const Surfaces surfaces = surfaces_of(scene);
     const double areas = surfaces.patch(0).area * surfaces.patch(1).area;
     const double reference = areas / (M_PI * length_squared(surfaces.patch(1).centre - surfaces.patch(0).centre));
     // 16 x 16 midpoints of both: remaining error below 1e-3 of it at distance 2, far less beyond.
@@ -262,10 +259,7 @@ TEST(FormFactor, PointsOfATwistedPatchStandAtTheirHeights) {
     const Vec3 q[4] = {{2, 2, 1}, {2, 3, 1}, {3, 3, 1 - lift}, {3, 2, 1}};
     AmbientScene scene(grey(0.5) + quad("a", {p[0], p[1], p[2], p[3]}) + quad("b", {q[0], q[1], q[2], q[3]}),
                        exact_rows());
-    Surfaces surfaces;
-    ASSERT_TRUE(gather_surfaces(scene.loaded.scene, scene.geometry, scene.patches, scene.direct, scene.options,
-                                scene.loaded.arena, surfaces)
-                    .done());
+    const Surfaces surfaces = surfaces_of(scene);
     const double expected = summed_by_mean_normals(Twisted(p), Twisted(q), 24);
     const PairExchange pair = exchange_between(surfaces, row_side(surfaces, 0), 1, 0.2);
     EXPECT_NEAR(pair.geometric, expected, 0.002 * expected) << lift;
@@ -309,10 +303,7 @@ TEST(FormFactor, AnArmOfAConcavePatchBeyondTheOthersPlaneIsSeen) {
   for (const double x : {-0.1, -0.9, -0.98, 0.98}) {
     const std::string wall = quad("wall", {{x, -2, 1}, {x, 2, 1}, {x, 2, 3}, {x, -2, 3}});
     AmbientScene scene(grey(0.5) + quad("arrow", {a, d, c, b}) + wall, exact_rows());
-    Surfaces surfaces;
-    ASSERT_TRUE(gather_surfaces(scene.loaded.scene, scene.geometry, scene.patches, scene.direct, scene.options,
-                                scene.loaded.arena, surfaces)
-                    .done());
+    const Surfaces surfaces = surfaces_of(scene);
     EXPECT_TRUE(exchange_between(surfaces, row_side(surfaces, 0), 1, 1e-3).crossing) << x;
   }
 }

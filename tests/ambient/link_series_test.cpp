@@ -12,11 +12,8 @@ namespace {
 
 /// A scene with everything that places need.
 struct PlacedScene {
-  explicit PlacedScene(const std::string& text) : scene(text, options()) {
+  explicit PlacedScene(const std::string& text) : scene(text, options()), surfaces(surfaces_of(scene)) {
     Arena& arena = scene.loaded.arena;
-    EXPECT_TRUE(gather_surfaces(scene.loaded.scene, scene.geometry, scene.patches, scene.direct, options(), arena,
-                                surfaces)
-                    .done());
     const std::size_t before = arena.used();
     EXPECT_TRUE(places.take(arena, surfaces, options().rules).done());
     EXPECT_EQ(arena.used() - before, Places::bytes(scene.loaded.scene, options().rules));

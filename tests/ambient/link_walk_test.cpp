@@ -20,12 +20,10 @@ void expect_all_left(int nu, int nv) {
   Options options;
   options.rules.rule3 = true;
   AmbientScene scene(grey(0.5) + two_walls(nu, nv), options);
-  Surfaces surfaces;
+  Surfaces surfaces = surfaces_of(scene);
   Sparsity sparsity;
   LinkWalk walk;
   Arena& arena = scene.loaded.arena;
-  ASSERT_TRUE(gather_surfaces(scene.loaded.scene, scene.geometry, scene.patches, scene.direct, options, arena, surfaces)
-                  .done());
   ASSERT_TRUE(sparsity.take(arena, surfaces, scene.direct, options.rules).done());
   const std::size_t before = arena.used();
   ASSERT_TRUE(walk.take(arena, surfaces, sparsity, options).done());

@@ -87,9 +87,7 @@ TEST(Rules, TheLastRoundPutsEveryColumnBack) {
   AmbientScene scene(grey(0.7) + "display 1 250\n" + box_walls(1, 1, 1, 3, 3, 3, "white"), options);
   scene.light([](const Vec3&, std::uint32_t) { return 0.0; });
   Matrix matrix(scene.loaded.arena);
-  Surfaces& surfaces = matrix.surfaces;
-  ASSERT_TRUE(gather_surfaces(scene.loaded.scene, scene.geometry, scene.patches, scene.direct, options,
-                              scene.loaded.arena, surfaces).done());
+  Surfaces& surfaces = matrix.surfaces = surfaces_of(scene);
   Sparsity& sparsity = matrix.sparsity;
   ASSERT_TRUE(sparsity.take(scene.loaded.arena, surfaces, scene.direct, options.rules).done());
   std::vector<double> ambient(scene.patches.size(), 0.0);
