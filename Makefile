@@ -1,5 +1,5 @@
-# shodo: `make` builds build/shodo. Other targets: rooms, pictures, textures, report, test, hard, stability, load, coverage,
-# check-same-bytes, fuzz, soak, mutants, machines, workstation, scaling, memory-cost, check-budgets, install,
+# shodo: `make` builds build/shodo. Other targets: rooms, pictures, textures, report, test, truth, hard, stability, load,
+# coverage, check-same-bytes, fuzz, soak, mutants, machines, workstation, scaling, memory-cost, check-budgets, install,
 # install-needs, clean.
 #
 # Settings, on the command line of make:
@@ -66,6 +66,14 @@ $(BUILD)/shodo: $(PROGRAM_OBJECTS) $(BUILD)/libshodo.a $(BUILD)/program.stamp
 $(BUILD)/tests: $(TEST_OBJECTS) $(PROGRAM_PARTS) $(BUILD)/libshodo.a $(BUILD)/tests.stamp | $(BUILD)/system_faults.so
 	$(CXX) $(OPT) $(CXXFLAGS) $(LDFLAGS) $(TEST_LINK) $(TEST_OBJECTS) $(PROGRAM_PARTS) $(BUILD)/libshodo.a \
 	  -lgtest_main -lgtest -lpthread -o $@
+
+# Paths by chance: what the ambient light should be (doc/proof.md).
+TRUTH_OBJECTS = $(BUILD)/objects/tests/truth/main.o
+$(TRUTH_OBJECTS): FLAGS = $(TEST_FLAGS)
+truth: $(BUILD)/shodo $(BUILD)/truth
+	sh tools/truth
+$(BUILD)/truth: $(TRUTH_OBJECTS) $(BUILD)/libshodo.a
+	$(CXX) $(OPT) $(CXXFLAGS) $(LDFLAGS) $(TRUTH_OBJECTS) $(BUILD)/libshodo.a -lpthread -o $@
 
 # Stands between the program and the system, for tests.
 $(BUILD)/system_faults.so: tests/faults/system_faults.cpp $(BUILD)/flags.stamp
@@ -205,8 +213,9 @@ clean:
 	rm -rf $(BUILD) $(OUT)
 
 FORCE:
-.PHONY: all rooms pictures textures report test hard stability load coverage check-same-bytes fuzz soak mutants machines \
-  workstation scaling memory-cost check-budgets install install-needs clean FORCE
+.PHONY: all rooms pictures textures report test truth hard stability load coverage check-same-bytes fuzz soak mutants \
+  machines workstation scaling memory-cost check-budgets install install-needs clean FORCE
 .SECONDARY:
 
--include $(COVERED_OBJECTS:.o=.d) $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(TEST_OBJECTS:.o=.d)
+-include $(COVERED_OBJECTS:.o=.d) $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(TEST_OBJECTS:.o=.d) \
+  $(TRUTH_OBJECTS:.o=.d)
