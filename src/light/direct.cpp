@@ -170,14 +170,15 @@ void DirectStage::light_one(std::uint32_t m, std::uint32_t cell, std::uint32_t l
     if (!direct_.hidden.empty()) direct_.hidden[index] = 1;
     return;
   }
-  sums.visible_area += area;
+  const double visible = area * light.visible;
+  sums.visible_area += visible;
   if (!direct_.sub_patch_factor.empty()) direct_.sub_patch_factor[index] = fraction(light.light_factor);
   for (std::uint32_t c = 0; c < scene_.channels; ++c) {
     const double lux = finite(light.lux[c]);
     if (!direct_.sub_patch_lx.empty()) direct_.sub_patch_lx[index * scene_.channels + c] = static_cast<float>(lux);
-    sums.lux[c] += area * lux;
+    sums.lux[c] += visible * lux;
   }
-  sums.light_factor += area * light.light_factor;
+  sums.light_factor += visible * light.light_factor;
 }
 
 void DirectStage::store(std::uint32_t patch, const PatchSums& sums) {

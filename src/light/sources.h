@@ -19,6 +19,8 @@
 
 namespace shodo {
 
+inline constexpr std::uint32_t kUsualSubPatches = 16384;
+
 class Sources {
  public:
   /// `tiers`: as in Options.
@@ -54,6 +56,12 @@ class Sources {
   /// What light l shows to all of the patch.
   Shown shown(std::uint32_t l, const Receiver& receiver);
 
+  /// What counts as the area of a sub-patch where its part of a light's flux is weighed. In a scene of more sub-patches
+  /// than rooms have, a multiple: else all parts would be small, and a finer map as wrong as a coarse one.
+  double usual_area(double area) const {
+    const std::uint32_t count = scene_->sub_patch_count;
+    return count > kUsualSubPatches ? area * (static_cast<double>(count) / kUsualSubPatches) : area;
+  }
   /// The part of the flux of an area or polyhedral light that falls on a sub-patch of this area, squared; nothing in
   /// the way, roughly and not much too little. 1 for a light nearer than so many radii of the sub-patch that the
   /// centre's form factor isn't the mean's, where there is no `shared_factor`.

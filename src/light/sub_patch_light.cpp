@@ -9,7 +9,7 @@ namespace {
 
 /// A light of whose flux a sub-patch gets a smaller part than this is looked at from its centre alone; an area light
 /// below kFaint with as few ends as other samples have. So work goes where the light goes. In a room of 10,000
-/// sub-patches the mean part is 1/10,000.
+/// sub-patches the mean part is 1/10,000; with more than kUsualSubPatches all parts are weighed as if it had so many.
 constexpr double kFaint = 1e-4;
 constexpr double kWeakArea = 1e-3;
 constexpr double kWeakPolyhedron = 1.5e-4;
@@ -229,7 +229,10 @@ void SubPatch::look_finely(std::uint32_t l, const Received& mean, double shared)
 
 /// The mean over the samples that are not hidden; over all if only the centre is not.
 void SubPatch::add_fine() {
-  if (!fine_.used) return;
+  if (!fine_.used) {
+    if (above_ == Above::kCovered) sum_.visible = part_of(~hidden_of(kAllSamples));
+    return;
+  }
   SubPatchLight visible, all;
   double visible_weight = 0, all_weight = 0;
   const auto add = [&](std::uint32_t k, SubPatchLight& to, double& weight) {
@@ -244,10 +247,21 @@ void SubPatch::add_fine() {
     if ((hidden >> k & 1) == 0) add(k, visible, visible_weight);
   }
   const bool any = visible_weight > 0;
+  if (any) sum_.visible = visible_weight / all_weight;
   const double weight = any ? visible_weight : all_weight;
   if (!(weight > 0)) return;
   for (std::uint32_t c = 0; c < channels(); ++c) sum_.lux[c] += (any ? visible : all).lux[c] / weight;
   sum_.light_factor += (any ? visible : all).light_factor / weight;
+}
+
+/// The part of the area for which these samples stand; 1 if it is none.
+double SubPatch::part_of(std::uint32_t samples) const {
+  double some = 0, all = 0;
+  for (std::uint32_t k = 0; k < kGridSamples; ++k) {
+    all += grid_.weight(k);
+    if ((samples >> k & 1) != 0) some += grid_.weight(k);
+  }
+  return some > 0 && all > 0 ? some / all : 1;
 }
 
 /// Those of the samples (a bit each) that are hidden.

@@ -42,7 +42,8 @@ namespace shodo {
 struct SubPatchLight {
   double lux[3] = {0, 0, 0};  // channels that the scene has
   double light_factor = 0;    // the part of its hemisphere that area lights and openings fill
-  bool hidden = false;
+  double visible = 1;         // the part of its area that is not hidden, as far as dark samples told
+  bool hidden = false;        // all of it is
 };
 
 SubPatchLight light_sub_patch(Sources& sources, const Receiver& receiver, const Piece& piece, bool thin);

@@ -39,7 +39,7 @@ class SubPatch {
     sources.forget_aims();
     view_.receiver = &receiver;
     view_.centre = piece.centre();
-    area_ = length(piece.vector_area());
+    area_ = sources.usual_area(length(piece.vector_area()));
     for (std::uint32_t k = 0; k < piece.corners; ++k) {
       const double reach = length(piece.corner[k] - view_.centre);
       if (reach > view_.radius) view_.radius = reach;
@@ -91,6 +91,7 @@ class SubPatch {
   bool faint(std::uint32_t l, const Received* received) const;
   [[gnu::noinline]] bool all_hidden();
   std::uint32_t hidden_of(std::uint32_t samples) const;
+  double part_of(std::uint32_t samples) const;
   double colour(std::uint32_t l, std::uint32_t channel) const { return sources_.light(l).colour.c[channel]; }
   std::uint32_t channels() const { return sources_.scene().channels; }
 
@@ -100,7 +101,7 @@ class SubPatch {
   PieceGrid grid_;
   bool thin_;
   SubPatchView view_;
-  double area_ = 0;
+  double area_ = 0;  // Sources::usual_area()
   Probes probes_;        // count 0: not placed yet
   ReceiverGroup gauss_, centre_group_;  // likewise
   SampleShift shift_;

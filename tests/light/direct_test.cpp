@@ -64,6 +64,33 @@ TEST(Hidden, ASubPatchHalfUnderABoxIsAsBrightAsItsVisibleHalf) {
   EXPECT_NEAR(scene.lux(floor, 1, 0), full, 1e-2);
 }
 
+/// Against the same floor cut along the box's edges into sub-patches that are hidden or aren't. A plate shades all of
+/// one of two sub-patches, and the sun lights what the box leaves of the other. Parts of it are counted in sixteenths,
+/// at whose edges the box ends: exact but for single precision.
+TEST(Hidden, ASubPatchPartlyUnderABoxCountsByItsVisiblePart) {
+  for (const double x : {1.25, 1.5, 1.75}) {
+    for (const double y : {0.0, 0.5, 0.75}) {
+      double lux[2] = {}, visible[2] = {};
+      for (const std::uint32_t cut : {1u, 4u}) {
+        LitScene scene;
+        scene.quad({0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, 1, 1, 2 * cut, cut);
+        scene.object();
+        scene.box({x, y, 0}, {3, 2, 0.25});
+        scene.quad({-9, -9, 1}, {-9, 9, 1}, {1, 9, 1}, {1, -9, 1});  // the plate, facing down
+        scene.add_sun({1.1, 0.1, 2}, {0, 0, -1}, 1000);
+        scene.light();
+        lux[cut / 4] = scene.direct.patch_lx[0];
+        visible[cut / 4] = scene.direct.visible_area[0];
+      }
+      const double lit = 1 - (2 - x) * (1 - y);
+      EXPECT_NEAR(visible[1], 0.5 * (1 + lit), 1e-6) << x << ' ' << y;
+      EXPECT_NEAR(visible[0], visible[1], 1e-6) << x << ' ' << y;
+      EXPECT_NEAR(lux[1], 1000 * lit / (1 + lit), 1e-3) << x << ' ' << y;
+      EXPECT_NEAR(lux[0], lux[1], 1e-6 * lux[1]) << x << ' ' << y;
+    }
+  }
+}
+
 TEST(Hidden, ASubPatchCoveredAtItsCentreOnlyIsNotHidden) {
   for (const bool lit : {true, false}) {
     LitScene scene;

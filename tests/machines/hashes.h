@@ -14,16 +14,16 @@ struct Hashes {
 };
 
 inline constexpr Hashes kHashes[] = {
-    {"box", 0xe8d08d62db7c49e9, 0x4907714283d9ca20},
+    {"box", 0x95e93224079ddf30, 0xaa0995f94a9ec6ac},
     {"sun", 0x9e54c6cd4147ac22, 0x6973181985d668a5},
-    {"shapes", 0xfd226d969b39a009, 0xe5d97d7200f6e278},
-    {"rules", 0xbba7fac311814be1, 0xa97c4ee6b29333a2},
-    {"rule2+", 0xae6684bae61bfd1e, 0x02058ee4215183ef},
+    {"shapes", 0x1b77209b5622d367, 0x3dbc97d3f19e1961},
+    {"rules", 0x660a7900a1896902, 0x8dabdffa0d2e1960},
+    {"rule2+", 0x7fadd11b86e42ca7, 0xfd0b2eed76068984},
     {"blocks", 0x58f188843dbe3202, 0x86e971cc73a1a6c2},
-    {"planes", 0x8f1af93ae34d0b8b, 0x76cc9a3e852eac5d},
+    {"planes", 0xb736224681ec12bc, 0x69f4c7a50455a704},
     {"textures", 0xcbdb3cfe3740623d, 0x5804eee79f24b372},
-    {"glass", 0xd8703eb4ea4f305a, 0x4f32996de6ee3e9e},
-    {"day", 0xd94e515e7cd8b47b, 0xf54d3eba49ea3ad5},
+    {"glass", 0x0634c812b8d70bc2, 0xea9b963b2f0b549d},
+    {"day", 0xe5bc50aa318d99e2, 0xb40799436aa72a20},
 };
 
 }  // namespace machines
