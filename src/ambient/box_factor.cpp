@@ -67,12 +67,12 @@ bool in_front(const AxisRectangle& a, const AxisRectangle& b, double* bounds) {
 
 }  // namespace
 
-AxisRectangle axis_rectangle(const Patch& patch, const PatchShape& shape, double flat) {
+AxisRectangle axis_rectangle(const Vec3& centre, const Vec3& normal, const PatchShape& shape, double flat) {
   AxisRectangle box;
   if (shape.outline != Outline::kQuad || shape.even == 0) return box;
-  const double centre[3] = {patch.centre.x, patch.centre.y, patch.centre.z};
+  const double middle[3] = {centre.x, centre.y, centre.z};
   const double a[3] = {shape.a.x, shape.a.y, shape.a.z}, b[3] = {shape.b.x, shape.b.y, shape.b.z};
-  const double normal[3] = {patch.normal.x, patch.normal.y, patch.normal.z};
+  const double up[3] = {normal.x, normal.y, normal.z};
   int axis = -1;
   for (int k = 0; k < 3; ++k) {
     const double of_a = magnitude(a[k]), of_b = magnitude(b[k]);
@@ -82,11 +82,11 @@ AxisRectangle axis_rectangle(const Patch& patch, const PatchShape& shape, double
       if (axis >= 0) return box;
       axis = k;
     }
-    box.low[k] = half <= flat ? centre[k] : centre[k] - half;
-    box.high[k] = half <= flat ? centre[k] : centre[k] + half;
+    box.low[k] = half <= flat ? middle[k] : middle[k] - half;
+    box.high[k] = half <= flat ? middle[k] : middle[k] + half;
   }
   box.axis = axis;
-  if (axis >= 0) box.up = normal[axis] > 0;
+  if (axis >= 0) box.up = up[axis] > 0;
   return box;
 }
 

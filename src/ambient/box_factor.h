@@ -24,7 +24,7 @@ struct AxisRectangle {
 };
 
 /// `flat`: what is rounding.
-AxisRectangle axis_rectangle(const Patch& patch, const PatchShape& shape, double flat);
+AxisRectangle axis_rectangle(const Vec3& centre, const Vec3& normal, const PatchShape& shape, double flat);
 
 /// G of both, or below 0 if the closed form doesn't serve.
 double box_exchange(const AxisRectangle& i, const AxisRectangle& j);

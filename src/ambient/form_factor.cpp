@@ -70,8 +70,8 @@ PairExchange near_pair(const Surfaces& surfaces, const RowSide& i, std::uint32_t
   const Patch& other = surfaces.patch(j);
   const double least = i.patch->area < other.area ? i.patch->area : other.area;
   const double most = unshaded < least ? unshaded : least;  // G can't be larger, nor need its error be
-  const double closed = box_exchange(axis_rectangle(*i.patch, *i.shape, surfaces.flat),
-                                     axis_rectangle(other, surfaces.shape(j), surfaces.flat));
+  const double closed = box_exchange(axis_rectangle(i.patch->centre, i.patch->normal, *i.shape, surfaces.flat),
+                                     axis_rectangle(other.centre, other.normal, surfaces.shape(j), surfaces.flat));
   if (closed >= 0) return {closed < least ? closed : least, kClosedError * closed, crossing};
   const bool first = looks_at_first(*i.patch, other, over_j, over_i);
   const NearFactor factor =

@@ -1,14 +1,17 @@
 #include "ambient/gather.h"
 
 #include "ambient/gather_group.h"
+#include "base/bits.h"
 #include "base/interrupted.h"
-#include "base/quadrature.h"
+#include "light/piece_grid.h"
 #include "scene/sub_patches.h"
+#include "visibility/hidden.h"
 
 namespace shodo {
 
 namespace {
 
+constexpr std::uint32_t kGridDivisions = 4;
 constexpr double kStandardErrors = 3;
 constexpr double kLightError = 1.0 / 64;
 constexpr std::uint32_t kProgressInterval = 16;
@@ -24,8 +27,10 @@ Options with_blocks(const Options& options) {
 
 class Gather {
  public:
-  Gather(const GatherScene& scene, const Options& options, std::span<GatherPoint> points, std::span<float> ambient_lx)
-      : scene_(scene), options_(options), points_(points), ambient_lx_(ambient_lx), group_(scene) {}
+  Gather(const GatherScene& scene, const Options& options, Intersector& intersector, std::span<GatherPoint> points,
+         std::span<float> ambient_lx)
+      : scene_(scene), options_(options), intersector_(intersector), points_(points), ambient_lx_(ambient_lx),
+        group_(scene) {}
 
   // Not inlined: the stack of one is needed while the others' isn't.
   [[gnu::noinline]] void patch(std::uint32_t node, std::uint32_t place);
@@ -33,11 +38,14 @@ class Gather {
  private:
   [[gnu::noinline]] bool place_point(std::uint32_t mesh_index, std::uint32_t cell, std::uint32_t local, bool thin,
                                      GatherPoint& point);
+  [[gnu::noinline]] bool move_into_view(std::uint32_t mesh_index, std::uint32_t cell, const Vec3& normal,
+                                        const PieceGrid& grid, GatherPoint& point);
   [[gnu::noinline]] void finish(std::uint32_t node, std::uint32_t place, std::uint32_t count);
   double scale_of(const GatherPoint& point) const;
 
   const GatherScene& scene_;
   const Options& options_;
+  Intersector& intersector_;
   std::span<GatherPoint> points_;
   std::span<float> ambient_lx_;
   GatherGroup group_;
@@ -55,18 +63,40 @@ bool Gather::place_point(std::uint32_t mesh_index, std::uint32_t cell, std::uint
   point.sub_patch = index;
   point.offset = piece.centre();
   point.side_squared = piece.longest_side() * piece.longest_side();
-  const double part = thin ? 0.5 : 1;
+  const PieceGrid grid(piece, kGridDivisions, thin);
   for (std::uint32_t k = 0; k < 4; ++k) {
-    const double x = (k % 2 == 0 ? -kGaussTwo : kGaussTwo) * part, y = (k / 2 == 0 ? -kGaussTwo : kGaussTwo) * part;
-    Vec3 at = piece.point(0.5 + 0.5 * x, 0.5 + 0.5 * y);
-    if (piece.corners == 3) {
-      // The centroid, and half-way to each corner.
-      at = k == 3 ? point.offset : point.offset + (0.5 * part) * (piece.corner[k] - point.offset);
-    }
-    point.place[k] = at;
-    point.from[k] = sample_point(*s.scene, *s.geometry, mesh_index, cell, at);
+    point.place[k] = grid.point_at(grid.gauss(k));
+    point.from[k] = sample_point(*s.scene, *s.geometry, mesh_index, cell, point.place[k]);
   }
-  return true;
+  return move_into_view(mesh_index, cell, normalised(piece.vector_area()), grid, point);
+}
+
+/// Places inside something move to where the sub-patch is seen: the middles of four equal parts of its samples that
+/// are, in their order. Of an even number the one before the middle in the outer parts, the one behind it in the inner
+/// ones, so that the four have the mean of all along rows and columns. False if none is seen.
+bool Gather::move_into_view(std::uint32_t mesh_index, std::uint32_t cell, const Vec3& normal, const PieceGrid& grid,
+                            GatherPoint& point) {
+  if (hidden_samples(intersector_, point.from, normal) == 0) return true;
+  const Surfaces& s = scene_.surfaces;
+  constexpr std::uint32_t kSamples = kGridDivisions * kGridDivisions;
+  static_assert(kSamples == kMostHiddenSamples);
+  LatticePoint lattice[kSamples];
+  for (std::uint32_t k = 0; k < kSamples; ++k) {
+    lattice[k] = sample_point(*s.scene, *s.geometry, mesh_index, cell, grid.point(k));
+  }
+  const std::uint32_t seen = ~hidden_samples(intersector_, lattice, normal) & ((1u << kSamples) - 1);
+  const std::uint32_t count = count_bits(seen);
+  std::uint32_t at = 0, next = 0;
+  for (std::uint32_t k = 0; k < kSamples; ++k) {
+    if ((seen >> k & 1) == 0) continue;
+    for (; next < 4 && at == ((2 * next + 1) * count - (next % 3 == 0 ? 1 : 0)) / 8; ++next) {
+      point.place[next] = grid.point(k);
+      point.from[next] = lattice[k];
+    }
+    ++at;
+  }
+  point.offset = 0.25 * ((point.place[0] + point.place[1]) + (point.place[2] + point.place[3]));
+  return count > 0;
 }
 
 /// As rows are scaled (ambient/matrix.h).
@@ -75,8 +105,7 @@ double Gather::scale_of(const GatherPoint& point) const {
                            ? 0
                            : static_cast<double>(scene_.direct.sub_patch_factor[point.sub_patch]) * (1.0 / 65535);
   const double lights = given < 1 ? given : 1, missing = 1 - lights - point.factor;
-  const double unsure = point.geometry_error + kStandardErrors * square_root(point.variance) +
-                        kLightError * lights + point.lost_inside();
+  const double unsure = point.geometry_error + kStandardErrors * square_root(point.variance) + kLightError * lights;
   if (!options_.scale_rows || !(point.factor > 0) || missing > unsure) return 1;
   return (1 - lights) / point.factor;
 }
@@ -140,7 +169,7 @@ Status gather_illuminance(const Scene& scene, const Geometry& geometry, std::spa
     if (!surfaces.is_block(node)) area += surfaces.root_area[node] * surfaces.root_area[node];
   }
   const GatherScene shared{surfaces, direct, ambient_lx, senders, lists, error, area / scene.patch_count};
-  Gather gather(shared, options, points, ambient_lx);
+  Gather gather(shared, options, intersector, points, ambient_lx);
   std::uint32_t done = 0;
   for (std::uint32_t k = 0; k < surfaces.mesh_at.size(); ++k) {
     std::uint32_t region_end = surfaces.mesh_begin[k];

@@ -12,7 +12,8 @@ constexpr double kSmallest = 16;      // so many times smaller than the mean, pa
 constexpr double kMostQ = 0.35;       // of the series
 constexpr double kSeriesShare = 0.5;  // its error is that times q^2
 constexpr double kBendShare = 1.0 / 8;  // of the second order over the group
-constexpr double kCloseShare = 1.0 / 32;
+constexpr double kFarOff = 64;        // times the group's reach squared: all of it sees the node from one place
+constexpr double kOwnShare = 2.0 / 3;  // of the longest side squared of what gathers, in q
 constexpr double kBelow = 1.0 / 32;   // of a node's longest side, may lie behind the receiver's plane
 constexpr std::int32_t kMoved = 16;   // samples are moved in front of their surface by less than that
 
@@ -21,14 +22,6 @@ constexpr std::int32_t kMoved = 16;   // samples are moved in front of their sur
 void GatherGroup::add(GatherPoint& point, const double* radiosity, double factor) const {
   for (std::uint32_t c = 0; c < scene_.surfaces.scene->channels; ++c) point.lx[c] += factor * radiosity[c];
   point.factor += solid_ * factor;
-}
-
-void GatherGroup::add_close(GatherPoint& point, std::uint32_t k, double weight) const {
-  const GatherPoint::Close& close = point.close[k];
-  for (std::uint32_t c = 0; c < scene_.surfaces.scene->channels; ++c) point.lx[c] += weight * close.lx[c];
-  point.factor += weight * close.factor;
-  // All else is found at the centre: what curves over the sub-patch counts there and here differently.
-  point.geometry_error += kCloseShare * weight * close.factor;
 }
 
 LatticeBox GatherGroup::samples_box(std::uint32_t j) const {
@@ -66,7 +59,7 @@ void GatherGroup::develop(const PatchShape& shape, Look& look) const {
   const Vec3 a = triangle ? (1 / square_root(6)) * (shape.a - 0.5 * shape.b) : shape.a;
   const Vec3 b = triangle ? (1 / square_root(8)) * shape.b : shape.b;
   const double axes = length_squared(a) + length_squared(b), over_squared = 1 / look.squared;
-  look.q = 4.0 / 3 * axes * over_squared;
+  look.q = (4.0 / 3 * axes + kOwnShare * own_squared_) / look.nearest;
   look.near = look.near || look.q > kMostQ;
   if (look.near) return;
   const double over_height = 1 / look.over_i;
@@ -81,6 +74,19 @@ void GatherGroup::develop(const PatchShape& shape, Look& look) const {
   if (look.correction < 0) look.correction = 0;
   look.factor = look.over_i * look.over_j * look.patch->area * (over_squared * over_squared * kInversePi) *
                 look.correction;
+  const double rise = look.squared / look.nearest;
+  look.most = look.factor * rise * rise;
+}
+
+/// Of the node's centre from the nearest of the points, where that tells them apart.
+double GatherGroup::nearest_squared(const Look& look) const {
+  double nearest = look.squared;
+  if (kFarOff * reach_ * reach_ < nearest) return nearest;
+  for (const GatherPoint& point : points_) {
+    const double squared = length_squared(look.way - point.offset);
+    if (squared < nearest) nearest = squared;
+  }
+  return nearest;
 }
 
 /// False if the node can't be seen.
@@ -94,9 +100,10 @@ bool GatherGroup::look_at(std::uint32_t j, Look& look) const {
   const double size = look.patch->longest_side;
   if (look.over_j + reach_ <= s.flat || look.over_i + 2 * size <= s.flat) return false;
   look.squared = length_squared(look.way);
+  look.nearest = nearest_squared(look);
   scene_.senders.radiosity(j, look.radiosity);
   look.level = scene_.senders.level_of(look.radiosity);
-  look.bound = look.patch->area * look.level / (kPi * look.squared + look.patch->area);
+  look.bound = look.patch->area * look.level / (kPi * look.nearest + look.patch->area);
   look.near = !(look.over_j > 0) || !(look.over_i > 0);
   if (look.bound <= kTiny * error_) return !look.near;
   if (look.near) {  // in front in part: then no cosine is larger than that of the part
@@ -129,7 +136,7 @@ GatherGroup::Step GatherGroup::consider(std::uint32_t j) {
     gather_tiny(look);
     return Step::kDone;
   }
-  const double w = look.factor * look.level, uneven = look.factor * scene_.senders.uneven(j);
+  const double w = look.most * look.level, uneven = look.most * scene_.senders.uneven(j);
   const bool rough = look.near || w * kSeriesShare * look.q * look.q > error ||
                      uneven * uneven * look.vary > error * error;
   if (rough && block) return Step::kSplit;
@@ -173,12 +180,9 @@ double GatherGroup::group_visible(const Look& look, std::uint32_t segments) {
     GatherPoint& point = points_[at];
     const std::uint32_t origin = (turn / 16 + k) & 3;
     const LatticePoint& end = samples[(turn / 64 + 3 * k) & last];
-    if (scene_.lists.blocked(point.from[origin], end)) {
-      point.lost[origin] += static_cast<float>(look.factor);
-    } else {
+    if (!scene_.lists.blocked(point.from[origin], end)) {
       ++free;
       passed += scene_.lists.pass(point.from[origin], end);
-      point.free |= 1u << origin;
     }
     at += points > 4 ? points / 4 : 1;
     if (at >= points) at -= points;
@@ -254,12 +258,14 @@ void GatherGroup::place_group(std::uint32_t node) {
   for (const GatherPoint& point : points_) centre_ = centre_ + point.offset;
   centre_ = (1 / static_cast<double>(points_.size())) * centre_;
   double farthest = 0;
+  own_squared_ = 0;
   LatticeBox box;
   for (GatherPoint& point : points_) {
     point.offset = point.offset - centre_;
     point.height = dot(normal_, point.offset);
     point.offset_squared = length_squared(point.offset);
     if (point.offset_squared > farthest) farthest = point.offset_squared;
+    if (point.side_squared > own_squared_) own_squared_ = point.side_squared;
     for (const LatticePoint& from : point.from) box.include(from);
   }
   reach_ = square_root(farthest);
@@ -274,11 +280,6 @@ void GatherGroup::place_group(std::uint32_t node) {
 
 void GatherGroup::finish_points() {
   for (GatherPoint& point : points_) {
-    double places = 0;
-    for (std::uint32_t k = 0; k < 4; ++k) places += point.inside(k) ? 0 : 1;
-    for (std::uint32_t k = 0; k < 4; ++k) {
-      if (!point.inside(k)) add_close(point, k, 1 / places);
-    }
     point.factor += shared_factor_ + dot(slope_factor_, point.offset);
     point.variance += shared_variance_;
     point.geometry_error += geometry_error_;

@@ -1,21 +1,24 @@
 // Some sub-patches of one patch gather light together (ours; doc/gather.md).
 //
 // The nodes of all meshes (ambient/block_tree.h) are walked in ascending order; each is taken as a whole, or replaced
-// by its parts. With w its light here over the scene's mean illuminance, estimated at the group's centre, and `error`
-// what one node may make wrong of it:
+// by its parts. With w its light here over the scene's mean illuminance, estimated for the sub-patch that is nearest to
+// the node, and `error` what one node may make wrong of it:
 //     w small                    one kernel and one segment for all sub-patches
-//     the kernel's series fits   (q^2 w, and its variation times how unevenly the node sends) two or four segments for
-//                                the group; where they agree value and gradient at the centre, or a kernel for each
-//                                sub-patch if it bends; where they don't, each sub-patch gets segments of its own
+//     the kernel's series fits   (q^2 w, the sizes of both ends in q, and its variation times how unevenly the node
+//                                sends) two or four segments for the group; where they agree value and gradient at the
+//                                centre, or a kernel for each sub-patch if it bends; where they don't, each sub-patch
+//                                gets segments of its own
 //     a patch too near for that  its contour from each sub-patch; or, if it sends unevenly or may be in half shade, its
 //                                sub-patches one by one, which send their direct light and the ambient light found so
-//                                far; from close by each of four places in a sub-patch gathers for itself
+//                                far; from close by from four places in a sub-patch, in all the closed form between
+//                                rectangles along the axes
 // Otherwise, and in half shade if w is large, blocks are split. Close and near: ambient/gather_near.cpp. Stack: 1 KiB.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
+#include "ambient/box_factor.h"
 #include "ambient/gather_lists.h"
 #include "ambient/gather_senders.h"
 #include "ambient/surfaces.h"
@@ -47,24 +50,7 @@ struct GatherPoint {
   double factor = 0;         // sum of form factors, shadows included
   double variance = 0;       // of `factor`, by segments
   double geometry_error = 0;  // of it besides, estimated
-  float lost[4] = {0, 0, 0, 0};  // form factors of blocked segments, by where they start
-  std::uint32_t free = 0;    // bit k: a segment from from[k] was free
   std::uint32_t sub_patch = 0;
-
-  /// What its four places get from close by, each for itself.
-  struct Close {
-    double lx[3] = {0, 0, 0};
-    double factor = 0;
-  } close[4];
-
-  /// Whether place k is inside something: no segment from there was free.
-  bool inside(std::uint32_t k) const { return (free >> k & 1) == 0 && lost[k] > 0; }
-  /// What segments from places inside something took.
-  double lost_inside() const {
-    double sum = 0;
-    for (std::uint32_t k = 0; k < 4; ++k) sum += inside(k) ? static_cast<double>(lost[k]) : 0;
-    return sum;
-  }
 };
 
 /// What the parts of a gather share.
@@ -94,10 +80,12 @@ class GatherGroup {
     double radiosity[3] = {0, 0, 0};
     Vec3 way;
     double over_i = 0, over_j = 0, squared = 0;
+    double nearest = 0;  // of squared distances, among the points
     double level = 0;
     double bound = 0;  // of what it sends here
     double q = 0;
     double factor = 0, correction = 1, vary = 0;  // of the series
+    double most = 0;                              // factor, from the nearest point
     bool near = false;                            // there is none
   };
 
@@ -105,6 +93,7 @@ class GatherGroup {
   void place_group(std::uint32_t node);
   Step consider(std::uint32_t j);
   bool look_at(std::uint32_t j, Look& look) const;
+  double nearest_squared(const Look& look) const;
   void develop(const PatchShape& shape, Look& look) const;
   bool bends(const Look& look, double w) const;
   void gather_tiny(const Look& look);
@@ -112,8 +101,9 @@ class GatherGroup {
   void gather_each(const Look& look, bool clear, std::uint32_t segments);
   void gather_near(const Look& look);
   void gather_polygon(const Look& look, const Piece& piece, bool clear);
-  void gather_close(GatherPoint& point, const Piece& piece, bool planar, const double* radiosity,
-                    const LatticePoint* to, std::uint32_t ends, bool clear);
+  AxisRectangle rectangle(const GatherPoint& point) const;
+  void gather_close(GatherPoint& point, const Piece& piece, bool planar, const AxisRectangle& sender,
+                    const double* radiosity, const LatticePoint* to, std::uint32_t ends, bool clear);
   struct Part;
   double part_factor(GatherPoint& point, const Part& part) const;
   void gather_parts(const Look& look, bool clear);
@@ -121,7 +111,6 @@ class GatherGroup {
                  std::uint32_t segments, double factor);
   double group_visible(const Look& look, std::uint32_t segments);
   void add(GatherPoint& point, const double* radiosity, double factor) const;
-  void add_close(GatherPoint& point, std::uint32_t k, double weight) const;
   void finish_points();
   LatticeBox samples_box(std::uint32_t j) const;
   LatticeBox inner_box(std::uint32_t j, const Mesh& mesh) const;
@@ -134,6 +123,7 @@ class GatherGroup {
   double solid_ = 1;  // of the mesh at work: through a pane one sees what is behind as well
   double error_ = 0;  // that of scene_, more for small patches
   double reach_ = 0;  // of the points' sub-patches, from the centre
+  double own_squared_ = 0;  // the longest side of those
   double geometry_error_ = 0;  // of what all points share
   // Of the group's centre, and gradients.
   double shared_lx_[3] = {}, shared_factor_ = 0, shared_variance_ = 0;

@@ -1,5 +1,8 @@
 // The near part of a gather: contours, and senders' own sub-patches (doc/gather.md).
 #include "ambient/gather_group.h"
+#include "ambient/box_factor.h"
+#include "base/quadrature.h"
+#include "light/piece_grid.h"
 #include "light/polygon_factor.h"
 #include "scene/sub_patches.h"
 
@@ -8,6 +11,7 @@ namespace shodo {
 namespace {
 
 constexpr double kOfUneven = 0.5;  // of the unevenness, what a contour's integral makes wrong
+constexpr double kCloseShare = 1.0 / 32;
 constexpr double kClose = 1;       // times both longest sides squared: a squared distance below it is close
 constexpr double kPartQ = 0.2;     // sub-patches beyond it send by their contour
 constexpr double kPartShare = 0.3;  // times q: the error of their kernel
@@ -34,12 +38,9 @@ double GatherGroup::visible(GatherPoint& point, std::uint32_t turn, const Lattic
   double passed = 0;
   for (std::uint32_t most = segments; done < most; ++done) {
     const std::uint32_t origin = (turn + done) & 3, end = (turn / 4 + 3 * done + done / 4) & (ends - 1);
-    if (scene_.lists.blocked(point.from[origin], to[end])) {
-      point.lost[origin] += static_cast<float>(factor);
-    } else {
+    if (!scene_.lists.blocked(point.from[origin], to[end])) {
       ++free;
       passed += scene_.lists.pass(point.from[origin], to[end]);
-      point.free |= 1u << origin;
     }
     if (done + 1 == most && most > 1 && most == segments && free > 0 && free <= done) most = 2 * segments;
   }
@@ -76,23 +77,45 @@ void GatherGroup::gather_near(const Look& look) {
   }
 }
 
-/// By the contour from each of four places, with a segment from there.
-void GatherGroup::gather_close(GatherPoint& point, const Piece& piece, bool planar, const double* radiosity,
-                               const LatticePoint* to, std::uint32_t ends, bool clear) {
+/// A sub-patch as a rectangle along the axes, if it is one.
+AxisRectangle GatherGroup::rectangle(const GatherPoint& point) const {
+  const Surfaces& s = scene_.surfaces;
+  PatchShape shape;
+  const Vec3 across = point.place[1] - point.place[0], up = point.place[2] - point.place[0];
+  shape.a = (0.5 / kGaussTwo) * across;
+  shape.b = (0.5 / kGaussTwo) * up;
+  const bool even = length_squared(point.place[3] - point.place[2] - across) <= s.flat * s.flat;
+  if (!even || s.patch(node_).thin != 0) return {};
+  return axis_rectangle(centre_ + point.offset, normal_, shape, s.flat);
+}
+
+/// By the contour from each of four places, with a segment from there; in all what the closed form says, if one serves.
+void GatherGroup::gather_close(GatherPoint& point, const Piece& piece, bool planar, const AxisRectangle& sender,
+                               const double* radiosity, const LatticePoint* to, std::uint32_t ends, bool clear) {
+  double factors[4], sum = 0;
   for (std::uint32_t k = 0; k < 4; ++k) {
-    double factor = piece_factor(point.place[k], normal_, piece, planar);
+    const double factor = piece_factor(point.place[k], normal_, piece, planar);
+    factors[k] = factor > 0 ? factor : 0;
+    sum += factors[k];
+  }
+  if (sender.axis >= 0) {
+    const AxisRectangle own = rectangle(point);
+    const double exchange = box_exchange(own, sender);
+    if (exchange >= 0) {
+      double area = 1;
+      for (int k = 0; k < 3; ++k) area *= k == own.axis ? 1 : own.high[k] - own.low[k];
+      for (double& factor : factors) factor = sum > 0 ? factor * (4 * exchange / (area * sum)) : exchange / area;
+    }
+  }
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    double factor = factors[k];
     if (!(factor > 0)) continue;
-    if (!clear && scene_.lists.blocked(point.from[k], to[k & (ends - 1)])) {
-      point.lost[k] += static_cast<float>(0.25 * factor);
-      continue;
-    }
-    if (!clear) {
-      point.free |= 1u << k;
-      factor *= scene_.lists.pass(point.from[k], to[k & (ends - 1)]);
-    }
-    GatherPoint::Close& close = point.close[k];
-    close.factor += solid_ * factor;
-    for (std::uint32_t c = 0; c < scene_.surfaces.scene->channels; ++c) close.lx[c] += factor * radiosity[c];
+    const LatticePoint& end = to[k & (ends - 1)];
+    if (!clear && scene_.lists.blocked(point.from[k], end)) continue;
+    factor *= clear ? 0.25 : 0.25 * scene_.lists.pass(point.from[k], end);
+    // All else is found at the centre: what curves over the sub-patch counts there and here differently.
+    point.geometry_error += kCloseShare * factor;
+    add(point, radiosity, factor);
   }
 }
 
@@ -100,13 +123,14 @@ void GatherGroup::gather_polygon(const Look& look, const Piece& piece, bool clea
   const Surfaces& s = scene_.surfaces;
   const LatticePoint* const samples = s.samples(look.node);
   const bool planar = s.mesh(look.node).kind != MeshKind::kGrid;
+  const AxisRectangle box = axis_rectangle(look.patch->centre, look.patch->normal, s.shape(look.node), s.flat);
   std::uint32_t turn = gather_hash(node_, look.node);
   const double side = look.patch->longest_side;
   for (GatherPoint& point : points_) {
     turn += 5;
     const Vec3 way = look.way - point.offset;
     if (look.bound > kOneSegment * error_ && length_squared(way) < kClose * (side * side + point.side_squared)) {
-      gather_close(point, piece, planar, look.radiosity, samples, s.cached_points, clear);
+      gather_close(point, piece, planar, box, look.radiosity, samples, s.cached_points, clear);
       continue;
     }
     double factor = piece_factor(centre_ + point.offset, normal_, piece, planar);
@@ -146,6 +170,9 @@ void GatherGroup::gather_parts(const Look& look, bool clear) {
   const std::uint32_t mesh_index = s.mesh_index(look.node), local = s.local(look.node), channels = s.scene->channels;
   const std::uint32_t cell = cell_of_patch(mesh, local);
   const bool planar = mesh.kind != MeshKind::kGrid;
+  PatchShape part_shape = s.shape(look.node);
+  part_shape.a = (1.0 / mesh.su) * part_shape.a;
+  part_shape.b = (1.0 / mesh.sv) * part_shape.b;
   std::uint32_t turn = gather_hash(node_, look.node);
   SubPatchesOfPatch parts(mesh, local);
   for (std::uint32_t k = parts.next(); k != kNone; k = parts.next()) {
@@ -162,19 +189,24 @@ void GatherGroup::gather_parts(const Look& look, bool clear) {
     part.centre = part.piece.centre();
     part.area = length(part.piece.vector_area());
     part.side = part.piece.longest_side();
-    const LatticePoint end = sample_point(*s.scene, *s.geometry, mesh_index, cell, part.centre);
+    const AxisRectangle box = axis_rectangle(part.centre, part.normal, part_shape, s.flat);
+    LatticePoint ends[4];
+    const PieceGrid grid(part.piece, 1);
+    for (std::uint32_t e = 0; e < 4 && !clear; ++e) {
+      ends[e] = sample_point(*s.scene, *s.geometry, mesh_index, cell, grid.point_at(grid.gauss(e)));
+    }
     for (GatherPoint& point : points_) {
       turn += 5;
       const double squared = length_squared(part.centre - centre_ - point.offset);
       if (squared < kClose * (part.side * part.side + point.side_squared)) {
-        gather_close(point, part.piece, planar, sends, &end, 1, clear);
+        gather_close(point, part.piece, planar, box, sends, ends, 4, clear);
         continue;
       }
       double factor = part_factor(point, part);
       if (!(factor > 0)) continue;
       const double w = factor * level;
       const std::uint32_t segments = w <= kOneSegment * error_ ? 1 : w <= kMostMixed * error_ ? 2 : 4;
-      if (!clear) factor *= visible(point, turn, &end, 1, segments, factor);
+      if (!clear) factor *= visible(point, turn, ends, 4, segments, factor);
       add(point, sends, factor);
     }
   }

@@ -22,7 +22,7 @@ TEST(BoxFactor, IsTheContourIntegral) {
       patch[k].piece = patch_piece(scene.loaded.scene, scene.loaded.scene.meshes[k], 0);
       patch[k].normal = scene.patches[k].normal;
       patch[k].area = scene.patches[k].area;
-      box[k] = axis_rectangle(scene.patches[k], shape_of(patch[k].piece), flat);
+      box[k] = axis_rectangle(scene.patches[k].centre, scene.patches[k].normal, shape_of(patch[k].piece), flat);
       EXPECT_GE(box[k].axis, 0);
     }
     const NearFactor contour = near_factor(patch[0], patch[1], 1e-7, true, flat);
@@ -39,7 +39,7 @@ TEST(BoxFactor, RefusesWhatIsNoRectangleAlongTheAxesOrTooFar) {
   AxisRectangle box[3];
   for (std::uint32_t k = 0; k < 3; ++k) {
     const Piece piece = patch_piece(scene.loaded.scene, scene.loaded.scene.meshes[k], 0);
-    box[k] = axis_rectangle(scene.patches[k], shape_of(piece), 1e-9);
+    box[k] = axis_rectangle(scene.patches[k].centre, scene.patches[k].normal, shape_of(piece), 1e-9);
   }
   EXPECT_LT(box[0].axis, 0);
   EXPECT_LT(box_exchange(box[0], box[1]), 0);

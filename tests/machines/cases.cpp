@@ -44,6 +44,12 @@ void blocks(Options& o) {
   o.segments_mixed = 16;
 }
 
+void gather(Options& o) {
+  shapes(o);
+  o.rules.blocks = true;
+  o.gather = true;
+}
+
 void room(Options& o) {
   o.refine = 0.2;
   o.segments_first = 1;
@@ -64,6 +70,7 @@ constexpr Case kCases[] = {
     {"planes", "tests/cli/scenes/planes.scn", small, Scarce::kIfFast, false, false},
     {"textures", "tests/cli/scenes/textures.scn", small, Scarce::kNever, false, false},
     {"glass", "tests/cli/scenes/glass.scn", small, Scarce::kNever, false, true},
+    {"gather", "tests/cli/scenes/shapes.scn", gather, Scarce::kNever, false, false},
     {"day", "data/day.scn", room, Scarce::kNever, false, false},
 };
 
