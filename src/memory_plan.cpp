@@ -131,7 +131,7 @@ PartText plan_part_text(PlanPart part) {
       {"ambient maps", "4 c s"},
       {"spreading over a mesh, or gathering",
        "9 a patch + 8 a row of sub-patches, of the largest mesh; --gather: surfaces + possible blockers + 4 c blocks + "
-       "2 a node + 16,384 + 4 facets + 48 objects + 9,000"},
+       "2 a node + 16,384 + 4 facets + 48 objects + 6,600"},
       {"drawing, or placing again",
        "1,952 + 2 c s + 8,193 + (4 c + 3) width + 4 rows + 10 drawn + 208 active triangles; textures: 4/3 of their "
        "texels"},

@@ -89,33 +89,39 @@ AxisRectangle GatherGroup::rectangle(const GatherPoint& point) const {
   return axis_rectangle(centre_ + point.offset, normal_, shape, s.flat);
 }
 
-/// By the contour from each of four places, with a segment from there; in all what the closed form says, if one serves.
+/// By the closed form as a whole, if one serves and nothing is between; else by the contour from each of four places,
+/// with a segment from there, in all what the closed form says.
 void GatherGroup::gather_close(GatherPoint& point, const Piece& piece, bool planar, const AxisRectangle& sender,
                                const double* radiosity, const LatticePoint* to, std::uint32_t ends, bool clear) {
+  double closed = -1;
+  if (sender.axis >= 0) {
+    const AxisRectangle own = rectangle(point);
+    closed = box_exchange(own, sender);
+    for (int k = 0; k < 3 && closed > 0; ++k) closed /= k == own.axis ? 1 : own.high[k] - own.low[k];
+  }
+  // All else is found at the centre: what curves over the sub-patch counts there and here differently.
+  const auto gather = [&](double factor) {
+    point.geometry_error += kCloseShare * factor;
+    add(point, radiosity, factor);
+  };
+  if (closed == 0) return;
+  if (closed > 0 && clear) {
+    gather(closed);
+    return;
+  }
   double factors[4], sum = 0;
   for (std::uint32_t k = 0; k < 4; ++k) {
     const double factor = piece_factor(point.place[k], normal_, piece, planar);
-    factors[k] = factor > 0 ? factor : 0;
+    factors[k] = factor > 0 ? 0.25 * factor : 0;
     sum += factors[k];
-  }
-  if (sender.axis >= 0) {
-    const AxisRectangle own = rectangle(point);
-    const double exchange = box_exchange(own, sender);
-    if (exchange >= 0) {
-      double area = 1;
-      for (int k = 0; k < 3; ++k) area *= k == own.axis ? 1 : own.high[k] - own.low[k];
-      for (double& factor : factors) factor = sum > 0 ? factor * (4 * exchange / (area * sum)) : exchange / area;
-    }
   }
   for (std::uint32_t k = 0; k < 4; ++k) {
     double factor = factors[k];
+    if (closed > 0) factor = sum > 0 ? factor * (closed / sum) : 0.25 * closed;
     if (!(factor > 0)) continue;
     const LatticePoint& end = to[k & (ends - 1)];
     if (!clear && scene_.lists.blocked(point.from[k], end)) continue;
-    factor *= clear ? 0.25 : 0.25 * scene_.lists.pass(point.from[k], end);
-    // All else is found at the centre: what curves over the sub-patch counts there and here differently.
-    point.geometry_error += kCloseShare * factor;
-    add(point, radiosity, factor);
+    gather(clear ? factor : factor * scene_.lists.pass(point.from[k], end));
   }
 }
 

@@ -77,13 +77,14 @@ struct PatchSums {
 
 class DirectStage {
  public:
-  DirectStage(const Scene& scene, const Geometry& geometry, Sources& sources, MirrorLight& mirrors,
-              DirectLight& direct)
+  DirectStage(const Scene& scene, const Geometry& geometry, const Options& options, Sources& sources,
+              MirrorLight& mirrors, DirectLight& direct)
       : scene_(scene),
         geometry_(geometry),
         sources_(sources),
         mirrors_(mirrors),
         direct_(direct),
+        parts_count_(options.scale_rows),
         coloured_(sources.intersector().panes().coloured()) {}
 
   /// False if the progress callback asked to stop.
@@ -100,6 +101,9 @@ class DirectStage {
   Sources& sources_;
   MirrorLight& mirrors_;
   DirectLight& direct_;
+  /// Parts of sub-patches count in visible areas. A row divided by a small one comes out above 1 if its segments see
+  /// more than that: scaled down it does no harm, else light would grow from sweep to sweep.
+  bool parts_count_;
   bool coloured_;  // panes: every channel by itself
   std::uint32_t done_ = 0;
   FlatFront front_;  // of the patch at work
@@ -170,7 +174,7 @@ void DirectStage::light_one(std::uint32_t m, std::uint32_t cell, std::uint32_t l
     if (!direct_.hidden.empty()) direct_.hidden[index] = 1;
     return;
   }
-  const double visible = area * light.visible;
+  const double visible = parts_count_ ? area * light.visible : area;
   sums.visible_area += visible;
   if (!direct_.sub_patch_factor.empty()) direct_.sub_patch_factor[index] = fraction(light.light_factor);
   for (std::uint32_t c = 0; c < scene_.channels; ++c) {
@@ -245,7 +249,7 @@ Status light_directly(const Scene& scene, const Geometry& geometry, std::span<co
   if (options.mirror_light && !mirrors.take(arena)) return arena.refused();
   if (first) take_spare_sub_patches(scene, options, arena, direct);
   if (!intersector.take_masks(arena)) return arena.refused();
-  DirectStage stage(scene, geometry, sources, mirrors, direct);
+  DirectStage stage(scene, geometry, options, sources, mirrors, direct);
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
     for (std::uint32_t local = 0; local < scene.meshes[m].patch_count(); ++local) {
       const std::uint32_t patch = scene.meshes[m].first_patch + local;

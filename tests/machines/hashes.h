@@ -18,7 +18,7 @@ inline constexpr Hashes kHashes[] = {
     {"sun", 0x9e54c6cd4147ac22, 0x6973181985d668a5},
     {"shapes", 0x1b77209b5622d367, 0x3dbc97d3f19e1961},
     {"rules", 0x660a7900a1896902, 0x8dabdffa0d2e1960},
-    {"rule2+", 0x7fadd11b86e42ca7, 0xfd0b2eed76068984},
+    {"rule2+", 0xae6684bae61bfd1e, 0x02058ee4215183ef},
     {"blocks", 0x58f188843dbe3202, 0x86e971cc73a1a6c2},
     {"planes", 0xb736224681ec12bc, 0x69f4c7a50455a704},
     {"textures", 0xcbdb3cfe3740623d, 0x5804eee79f24b372},

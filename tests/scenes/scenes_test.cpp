@@ -259,5 +259,16 @@ TEST(Rooms, LookAsTheyDidWithEffectsAndWithout) {
   }
 }
 
+/// Rows as they come out: of patches that are mostly hidden they must not be so far above 1 that light feeds itself. No
+/// surface reflects more than 0.88, so that none of it is as bright as the sun's.
+TEST(Rooms, KeepTheirLightWithoutScaling) {
+  Options options = small_picture();
+  options.refine = 0.5;
+  options.scale_rows = false;
+  DataScene day("day", options);
+  const auto most = [](const auto& lux) { return *std::max_element(lux.begin(), lux.end()); };
+  EXPECT_LT(most(day.model->ambient.patch_lx), most(day.model->direct.patch_lx));
+}
+
 }  // namespace
 }  // namespace shodo
