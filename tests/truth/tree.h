@@ -147,8 +147,6 @@ class Tree {
       }
       const std::uint32_t count = to[side] - from[side];
       if (count <= 2) {
-        nodes_[node].first[side] = from[side];
-        nodes_[node].count[side] = count;
         if (count == 0) nodes_[node].low[side][0] = 1e30f, nodes_[node].high[side][0] = -1e30f;
         nodes_[node].first[side] = from[side];
         nodes_[node].count[side] = count == 0 ? 1 : count;  // an empty box is never entered
