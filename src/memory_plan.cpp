@@ -67,9 +67,7 @@ void plan_light(const Model& model, MemoryPlan& plan) {
   if (const std::uint64_t rounds = rounds_bytes(scene, model.geometry, options); rounds > 0) {
     plan.add(PlanPart::kAmbientOptics, rounds, kAmbient);
   }
-  const std::uint64_t factors = sub_patch_factor_bytes(scene, options);
-  plan.add(PlanPart::kSubPatches, direct_sub_patch_bytes(scene, options) - factors, kAgain | kMap | kPicture);
-  if (factors > 0) plan.add(PlanPart::kFactors, factors, kAgain | kMap);
+  plan.add(PlanPart::kSubPatches, direct_sub_patch_bytes(scene), kAgain | kMap | kPicture);
 }
 
 /// Nothing for scenes without planes.
@@ -83,7 +81,7 @@ void plan_picture(const Model& model, MemoryPlan& plan) {
   const Scene& scene = model.scene;
   const std::uint64_t maps = map_value_bytes(scene);
   plan.add(PlanPart::kMaps, maps, kMap | kPicture);
-  plan.add(PlanPart::kSpreading, maps_bytes(model, SurfacesKeep::kNothing) - maps, kMap);
+  plan.add(PlanPart::kSpreading, maps_bytes(model) - maps, kMap);
   plan.add(PlanPart::kDrawing, larger(model.geometry.placing_bytes, model.picture_scratch), kPicture);
 }
 
@@ -125,13 +123,12 @@ PartText plan_part_text(PlanPart part) {
        "row + the coarse correction + 2,300; rows: what is left"},
       {"ambient light by channel, over mirrors", "8 c n where panes are coloured, 24 c n with --mirror-light on"},
       {"direct light of the sub-patches", "(4 c + 1) s; spare: given up to the rows"},
-      {"what the sub-patches see of lights", "2 s, with --gather on; spare as these"},
       {"light of measuring planes", "(8 c + 1) sub-patches of planes"},
       {"while measuring", "(44 + 8 c) sub-patches of a plane's patch"},
       {"ambient maps", "4 c s"},
       {"spreading over a mesh, or gathering",
-       "9 a patch + 8 a row of sub-patches, of the largest mesh; --gather: surfaces + possible blockers + 4 c blocks + "
-       "2 a node + 16,384 + 4 facets + 48 objects + 6,600"},
+       "9 a patch + 8 a row of sub-patches, of the largest mesh; --gather: possible blockers + 52 polygons + "
+       "4 triangles + 2 c s + 4 n + 3,712"},
       {"drawing, or placing again",
        "1,952 + 2 c s + 8,193 + (4 c + 3) width + 4 rows + 10 drawn + 208 active triangles; textures: 4/3 of their "
        "texels"},
@@ -152,11 +149,10 @@ std::uint64_t MemoryPlan::peak() const {
   return most;
 }
 
-std::uint64_t maps_bytes(const Model& model, SurfacesKeep keep) {
+std::uint64_t maps_bytes(const Model& model) {
   const std::uint64_t spread = map_bytes(model.scene, model.options);
   if (!features::gathers(model.options)) return spread;
-  return larger(spread,
-                map_value_bytes(model.scene) + gather_bytes(model.scene, model.geometry, model.options, keep));
+  return larger(spread, map_value_bytes(model.scene) + gather_bytes(model.scene, model.geometry, model.options));
 }
 
 std::uint64_t drawn_and_picture_bytes(const Model& model) {
@@ -179,7 +175,7 @@ bool keeps_geometry(const Model& model) {
   const std::uint64_t flags = features::aims(options.flags) ? FlagTables::bytes(scene) : 0;
   const std::uint64_t blockers = Intersector::bytes(model.geometry, options.flags);
   const std::uint64_t patches = model.after_patches + flags + direct_patch_bytes(scene);
-  const std::uint64_t sub_patches = direct_sub_patch_bytes(scene, options);
+  const std::uint64_t sub_patches = direct_sub_patch_bytes(scene);
   const std::uint64_t solved = patches + ambient_result_bytes(scene) + sub_patches + plane_map_bytes(scene);
   const std::uint64_t ambient = smallest_ambient_bytes(scene, model.geometry, options, SurfacesKeep::kGeometry);
   const std::uint64_t rows = expected_row_bytes(scene, options);
@@ -187,7 +183,7 @@ bool keeps_geometry(const Model& model) {
   const std::uint64_t rounds = rounds_bytes(scene, model.geometry, options);
   std::uint64_t most = patches + blockers + ambient + rounds + rows + (rows > 0 ? sub_patches : 0);
   most = larger(most, solved + blockers + Sources::bytes(scene) + plane_gather_bytes(scene) + mirror_bytes(model));
-  most = larger(most, solved + maps_bytes(model, SurfacesKeep::kGeometry));
+  most = larger(most, solved + maps_bytes(model));
   return most <= model.arena.capacity();
 }
 

@@ -21,7 +21,7 @@ const char* plan_stage_name(PlanStage stage);
 
 enum class PlanPart : std::uint8_t {
   kModel, kScene, kTriangles, kDrawn, kPlacing, kFlags, kDirectLight, kBlockers, kSources, kMirrors, kAmbientLight,
-  kSurfaces, kLinks, kSolution, kAmbientOptics, kSubPatches, kFactors, kPlanes, kMeasuring, kMaps, kSpreading, kDrawing
+  kSurfaces, kLinks, kSolution, kAmbientOptics, kSubPatches, kPlanes, kMeasuring, kMaps, kSpreading, kDrawing
 };
 
 /// For whoever shows a plan; not linked where nobody does.
@@ -57,7 +57,7 @@ MemoryPlan plan_memory(const Model& model, bool picture);
 bool keeps_geometry(const Model& model);
 
 /// Arena bytes of the maps, interpolated and gathered.
-std::uint64_t maps_bytes(const Model& model, SurfacesKeep keep);
+std::uint64_t maps_bytes(const Model& model);
 
 /// Arena bytes of drawing without the drawn triangles at hand.
 std::uint64_t drawn_and_picture_bytes(const Model& model);

@@ -73,11 +73,9 @@ Status take_patches(Model& model) {
 Status keep_sub_patches(Model& model, const Progress& progress) {
   Arena& arena = model.arena;
   DirectLight& direct = model.direct;
-  const bool held = !direct.hidden.empty() && arena.holds(direct.hidden) && arena.holds(direct.sub_patch_lx) &&
-                    arena.holds(direct.sub_patch_factor);
+  const bool held = !direct.hidden.empty() && arena.holds(direct.hidden) && arena.holds(direct.sub_patch_lx);
   arena.pin_spares(held ? arena.spares() : 0);
-  const SurfacesKeep keep = model.patches.empty() ? SurfacesKeep::kNothing : SurfacesKeep::kGeometry;
-  if ((held || model.scene.sub_patch_count == 0) && maps_bytes(model, keep) <= arena.left()) return {};
+  if ((held || model.scene.sub_patch_count == 0) && maps_bytes(model) <= arena.left()) return {};
   arena.release_spares(model.loaded_spares);
   arena.pin_spares(0);
   const Statistics counted = model.statistics;
@@ -86,17 +84,6 @@ Status keep_sub_patches(Model& model, const Progress& progress) {
   model.statistics = counted;
   model.statistics.lit_again = 1;
   return status;
-}
-
-void forget_factors(Model& model, Arena::Mark end) {
-  std::span<std::uint16_t>& factors = model.direct.sub_patch_factor;
-  if (factors.empty()) return;
-  if (model.arena.holds(factors)) {
-    model.arena.release_spares(model.arena.spares() - 1);
-  } else {
-    move_down(model.maps.ambient_lx, model.arena.lower(end, end - (factors.size_bytes() + 7) / 8 * 8));
-  }
-  factors = {};
 }
 
 Status place_again(Model& model) {

@@ -15,8 +15,6 @@ Status place_again(Model& model);
 Status take_patches(Model& model);
 /// The sub-patches' direct light stands in spare blocks; if the rows took them, all is lit once more.
 Status keep_sub_patches(Model& model, const Progress& progress);
-/// What sub-patches know of lights served gathering alone; `end`: of where it stands, if it isn't spare.
-void forget_factors(Model& model, Arena::Mark end);
 /// The drawn triangles, if the light took their memory; patches and what blocks give way to them and to the picture.
 Status place_drawn_again(Model& model);
 

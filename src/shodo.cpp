@@ -234,18 +234,15 @@ Status solve_maps(Model& model, const Progress& progress) {
                            model.intersector, progress, model.arena, model.planes, model.statistics);
   }
   model.flags = model.intersector.flags();
-  const Arena::Mark before_ambient = model.arena.mark();
   if (status.done()) {
     status = map_illuminance(model.scene, model.patches, model.direct, model.ambient, model.options, model.arena,
                              model.maps);
   }
   if (status.done() && features::gathers(model.options)) {
-    status = gather_illuminance(model.scene, model.geometry, model.patches, model.direct, model.ambient,
-                                model.intersector, model.options, progress, model.arena, model.maps.ambient_lx,
-                                model.statistics);
+    status = gather_illuminance(model.scene, model.geometry, model.direct, model.intersector, model.options, progress,
+                                model.arena, model.maps.ambient_lx, model.statistics);
   }
   end_stage(model, MemoryStage::kMap);
-  if (status.done()) forget_factors(model, before_ambient);
   model.solved = status.done();
   return with_model(status, model.overhead);
 }

@@ -19,6 +19,8 @@ struct Rules {
   double blocks_error = 0;      // 0: the default
 };
 
+inline constexpr std::uint32_t kMostGatherRays = 65536;
+
 struct Options {
   /// Whether sub-patches gather.
   constexpr bool gathers() const {
@@ -39,7 +41,7 @@ struct Options {
   bool interpolate = true;
   bool gather = false;                 // every sub-patch gathers its ambient light (doc/gather.md); not with rules 1,
                                        // 2, 2+ and 3, which are the paper's, as its interpolation is
-  double gather_error = 0;             // of one node's light there, of the mean illuminance; 0: the default
+  std::uint32_t gather_rays = 0;       // of a sub-patch, up to kMostGatherRays; 0: the default
   std::uint32_t row_value_bits = 16;   // 16 or 64
   bool mirror_light = false;           // mirrors send light on, once
   bool effects = true;                 // textures, panes, mirrors, highlights and the background are drawn; else the

@@ -4,15 +4,16 @@ namespace shodo {
 
 namespace {
 
-/// x rounded to the nearest integer, halves away from zero; |x| < 2^52.
-std::int64_t round_away(double x) {
+/// x rounded to the nearest integer, halves away from zero; it fits the type.
+template <class Integer>
+Integer round_away(double x) {
   const double m = magnitude(x);
-  std::int64_t whole = static_cast<std::int64_t>(m);
+  Integer whole = static_cast<Integer>(m);
   if (m - static_cast<double>(whole) >= 0.5) ++whole;
   return x < 0 ? -whole : whole;
 }
 
-std::int32_t even(double steps) { return static_cast<std::int32_t>(2 * round_away(0.5 * steps)); }
+std::int32_t even(double steps) { return static_cast<std::int32_t>(2 * round_away<std::int64_t>(0.5 * steps)); }
 
 std::int32_t odd(double steps) {
   const std::int32_t below = 2 * static_cast<std::int32_t>(0.5 * magnitude(steps)) + 1;
@@ -45,7 +46,8 @@ LatticeVector lattice_direction(const Vec3& d) {
   if (magnitude(d.z) > largest) largest = magnitude(d.z);
   if (!(largest > 0)) return {};
   constexpr double kSteps = 1 << 20;
-  return {round_away(d.x / largest * kSteps), round_away(d.y / largest * kSteps), round_away(d.z / largest * kSteps)};
+  const auto component = [&](double x) { return round_away<std::int32_t>(x / largest * kSteps); };
+  return {component(d.x), component(d.y), component(d.z)};
 }
 
 Vec3 scene_point(const Lattice& lattice, const LatticePoint& p) {

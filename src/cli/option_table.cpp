@@ -54,9 +54,8 @@ constexpr OptionRule kOptions[] = {
      [](std::string_view t, Arguments& a) { return on_or_off(t, a.options.effects); }},
     {"--interpolate", "on|off", kForAll, "on or off", "ambient light interpolated between patches (on)",
      [](std::string_view t, Arguments& a) { return on_or_off(t, a.options.interpolate); }},
-    {"--gather", "on|off|REL", kForAll, "on, off, or a number from 1e-9 to 1",
-     "every sub-patch gathers its ambient light, REL: error of one sender's, of the mean; not with rules 1, 2, 2+, 3 "
-     "(off)",
+    {"--gather", "on|off|N", kForAll, "on, off, or a whole number from 1 to 65536",
+     "every sub-patch gathers its ambient light by N rays (on: 256); not with rules 1, 2, 2+, 3 (off)",
      take_gather},
     {"--row-values", "16|64", kForAll, "16 or 64", "bits of a stored form factor (16)",
      [](std::string_view t, Arguments& a) {

@@ -162,10 +162,13 @@ bool take_show(std::string_view text, Arguments& a) {
 }
 
 bool take_gather(std::string_view text, Arguments& a) {
-  a.options.gather_error = 0;
+  a.options.gather_rays = 0;
   if (on_or_off(text, a.options.gather)) return true;
   a.options.gather = true;
-  return number_in(text, 1e-9, 1, a.options.gather_error);
+  std::uint32_t rays = 0;
+  if (!parse_unsigned(text, rays) || rays < 1 || rays > kMostGatherRays) return false;
+  a.options.gather_rays = rays;
+  return true;
 }
 
 bool take_text(std::string_view text, std::string& value) {

@@ -6,7 +6,6 @@
 // ambient stage wants the patches only, so sub-patches lie in spare blocks; if it takes those they are lit once more.
 #include "light/direct.h"
 
-#include "base/features.h"
 #include "base/interrupted.h"
 #include "light/mirror_light.h"
 #include "light/piece_grid.h"
@@ -27,9 +26,6 @@ constexpr std::uint32_t kManySubPatches = 3;
 constexpr std::int32_t kRounding = 8;
 /// Corners of a cell this near to one plane, of its size, are on it but for rounding.
 constexpr double kPlane = 0x1p-40;
-
-/// In 1/65535.
-std::uint16_t fraction(double x) { return static_cast<std::uint16_t>((x < 1 ? x : 1) * 65535 + 0.5); }
 
 /// A light of 1e308 cd is a scene's right; infinity in an output is not.
 double finite(double x) { return x < std::numeric_limits<float>::max() ? x : std::numeric_limits<float>::max(); }
@@ -176,7 +172,6 @@ void DirectStage::light_one(std::uint32_t m, std::uint32_t cell, std::uint32_t l
   }
   const double visible = parts_count_ ? area * light.visible : area;
   sums.visible_area += visible;
-  if (!direct_.sub_patch_factor.empty()) direct_.sub_patch_factor[index] = fraction(light.light_factor);
   for (std::uint32_t c = 0; c < scene_.channels; ++c) {
     const double lux = finite(light.lux[c]);
     if (!direct_.sub_patch_lx.empty()) direct_.sub_patch_lx[index * scene_.channels + c] = static_cast<float>(lux);
@@ -201,31 +196,22 @@ bool take_patches(const Scene& scene, Arena& arena, DirectLight& direct) {
          arena.take("form factors to lights", patches, direct.light_form_factor);
 }
 
-std::size_t sub_patch_factors(const Scene& scene, const Options& options) {
-  return features::gathers(options) ? scene.sub_patch_count : 0;
-}
-
-bool take_sub_patches(const Scene& scene, const Options& options, Arena& arena, DirectLight& direct) {
+bool take_sub_patches(const Scene& scene, Arena& arena, DirectLight& direct) {
   return arena.take("direct illuminance", std::size_t{scene.sub_patch_count} * scene.channels, direct.sub_patch_lx) &&
-         arena.take("hidden sub-patches", scene.sub_patch_count, direct.hidden) &&
-         arena.take("form factors of sub-patches to lights", sub_patch_factors(scene, options),
-                    direct.sub_patch_factor);
+         arena.take("hidden sub-patches", scene.sub_patch_count, direct.hidden);
 }
 
 /// All or none.
-void take_spare_sub_patches(const Scene& scene, const Options& options, Arena& arena, DirectLight& direct) {
+void take_spare_sub_patches(const Scene& scene, Arena& arena, DirectLight& direct) {
   const std::uint32_t before = arena.spares();
   const std::size_t values = std::size_t{scene.sub_patch_count} * scene.channels;
   if (arena.take_spare("direct illuminance", values, direct.sub_patch_lx) &&
-      arena.take_spare("hidden sub-patches", scene.sub_patch_count, direct.hidden) &&
-      arena.take_spare("form factors of sub-patches to lights", sub_patch_factors(scene, options),
-                       direct.sub_patch_factor)) {
+      arena.take_spare("hidden sub-patches", scene.sub_patch_count, direct.hidden)) {
     return;
   }
   arena.release_spares(before);
   direct.sub_patch_lx = {};
   direct.hidden = {};
-  direct.sub_patch_factor = {};
 }
 
 constexpr std::uint64_t block(std::uint64_t bytes) { return (bytes + 7) / 8 * 8; }
@@ -236,7 +222,7 @@ Status light_directly(const Scene& scene, const Geometry& geometry, std::span<co
                       const Options& options, Intersector& intersector, const Progress& progress, Arena& arena,
                       DirectLight& direct, Statistics& statistics, DirectKeeps keeps) {
   const bool first = keeps == DirectKeeps::kPatches;
-  if (!(first ? take_patches(scene, arena, direct) : take_sub_patches(scene, options, arena, direct))) {
+  if (!(first ? take_patches(scene, arena, direct) : take_sub_patches(scene, arena, direct))) {
     return arena.refused();
   }
   const ArenaScratch scratch(arena);
@@ -247,7 +233,7 @@ Status light_directly(const Scene& scene, const Geometry& geometry, std::span<co
   if (!status.done()) return status;
   MirrorLight mirrors(sources);
   if (options.mirror_light && !mirrors.take(arena)) return arena.refused();
-  if (first) take_spare_sub_patches(scene, options, arena, direct);
+  if (first) take_spare_sub_patches(scene, arena, direct);
   if (!intersector.take_masks(arena)) return arena.refused();
   DirectStage stage(scene, geometry, options, sources, mirrors, direct);
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
@@ -268,13 +254,9 @@ std::uint64_t direct_patch_bytes(const Scene& scene) {
   return block(8 * n * scene.channels) + 2 * block(4 * n);
 }
 
-std::uint64_t direct_sub_patch_bytes(const Scene& scene, const Options& options) {
+std::uint64_t direct_sub_patch_bytes(const Scene& scene) {
   const std::uint64_t s = scene.sub_patch_count;
-  return block(4 * s * scene.channels) + block(s) + sub_patch_factor_bytes(scene, options);
-}
-
-std::uint64_t sub_patch_factor_bytes(const Scene& scene, const Options& options) {
-  return block(2 * sub_patch_factors(scene, options));
+  return block(4 * s * scene.channels) + block(s);
 }
 
 }  // namespace shodo

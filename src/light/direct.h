@@ -18,14 +18,13 @@ namespace shodo {
 struct DirectLight {
   std::span<float> sub_patch_lx;   // [sub_patch * channels + channel], area means; 0 where hidden
   std::span<std::uint8_t> hidden;  // per sub-patch: 1 if inside or under something
-  std::span<std::uint16_t> sub_patch_factor;  // as light_form_factor, in 1/65535; none without a final gather
   std::span<double> patch_lx;      // [patch * channels + channel]: E0, area-weighted over sub-patches not hidden
   std::span<float> visible_area;   // per patch: the fraction of its area that is not hidden
   // Per patch: the part of its cosine-weighted hemisphere that area lights and openings fill.
   std::span<float> light_form_factor;
 };
 
-/// What stays of a run: 8 c + 8 a patch, c channels, and 4 c + 1 a sub-patch, 4 c + 3 with a final gather.
+/// What stays of a run: 8 c + 8 a patch, c channels, and 4 c + 1 a sub-patch.
 enum class DirectKeeps : std::uint8_t {
   kPatches,     // and sub-patches in spare blocks, as far as the arena holds them: see `sub_patch_lx`
   kSubPatches,  // once more, after kPatches and with the same answers: patches' values are there
@@ -38,8 +37,6 @@ Status light_directly(const Scene& scene, const Geometry& geometry, std::span<co
 
 /// Arena bytes of what stays of the patches, and of the sub-patches.
 std::uint64_t direct_patch_bytes(const Scene& scene);
-std::uint64_t direct_sub_patch_bytes(const Scene& scene, const Options& options);
-/// Of these, what only gathering asks for.
-std::uint64_t sub_patch_factor_bytes(const Scene& scene, const Options& options);
+std::uint64_t direct_sub_patch_bytes(const Scene& scene);
 
 }  // namespace shodo

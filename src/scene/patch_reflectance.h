@@ -33,6 +33,8 @@ class MeshReflectance {
     if (!scene.textured.empty()) find(scene, mesh);
   }
 
+  /// All patches reflect alike.
+  bool even() const { return values_ == nullptr; }
   /// Of a patch, counted from the mesh's first; `room` may be used for it.
   const double* of(std::uint32_t local, double (&room)[3]) const {
     return values_ == nullptr ? diffuse_ : widened(values_ + local * channels_, room);

@@ -1,3 +1,4 @@
+// What sub-patches gather: the mean over rays, whole rooms of it.
 #include "ambient/gather.h"
 
 #include <cmath>
@@ -7,79 +8,33 @@
 namespace shodo {
 namespace {
 
-/// Rows sum to 1 here by scaling, so single precision is all that is lost.
+
+/// Every ray meets the same value: what is lost is the last of the 12 digits of what is sent (ambient/sent_light.h),
+/// and that again of what was gathered before.
 TEST(Gather, FurnaceGivesE0RhoOverOneMinusRhoOnEverySubPatch) {
   for (const double rho : {0.3, 0.8}) {
-    Gathered box(grey(rho) + with_sub_patches(box_walls(4, 3, 2, 5, 4, 3, "white"), "3 2"), precise(),
+    Gathered box(grey(rho) + with_sub_patches(box_walls(4, 3, 2, 5, 4, 3, "white"), "3 2"), 64,
                  [](const Vec3&, std::uint32_t) { return 100.0; });
     ASSERT_TRUE(box.gather().done());
     const double expected = 100 * rho / (1 - rho);
-    for (const float lx : box.lx) EXPECT_NEAR(lx, expected, 1e-5 * expected);
+    for (const float lx : box.lx) EXPECT_NEAR(lx, expected, 0x1p-12 * expected / (1 - rho));
   }
 }
 
-/// More blockers than lists have room for: those between a region and an object, and those of a group of sub-patches.
-TEST(Gather, ListsThatAreTooLongChangeNoBit) {
-  // A cloud of 48 x 48 small sheets, which neither send nor receive, in a room of six objects.
-  std::string cloud = "object cloud\n";
-  constexpr int kSide = 48;
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
-      const double at = 0.2 + 1.6 * x / kSide, beside = 0.2 + 1.6 * y / kSide;
-      const double high = 0.9 + 0.004 * ((7 * x + 3 * y) % 17);
-      char line[200];
-      std::snprintf(line, sizeof line, "quad white %g %g %g %g %g %g %g %g %g %g %g %g patches 1 1 sub 1 1\n", at,
-                    beside, high, at + 0.02, beside, high, at + 0.02, beside + 0.02, high, at, beside + 0.02, high);
-      cloud += line;
-    }
-  }
-  Options options = precise();
-  options.gather_error = 1e-2;
-  const auto lit = [](const Vec3& p, std::uint32_t m) { return m == 0 ? 100 + 50 * p.x : 10.0; };
-  const std::string room = grey(0.5) + with_sub_patches(box_walls(2, 2, 2, 4, 4, 4, "white"), "2 2");
-  Gathered full(room + cloud, options, lit, [](const AmbientScene& scene, std::size_t patch) {
-    return scene.loaded.scene.meshes[scene.patches[patch].mesh].patch_count() == 1;
-  });
-  ASSERT_TRUE(full.gather().done());
-  const std::vector<float> with_lists = full.lx;
-  full.start();
-  ASSERT_TRUE(full.gather(FlagMode::kOff).done());
-  EXPECT_EQ(full.lx, with_lists);
-  // The cloud is there: less light arrives than without it.
-  Gathered empty(room, options, lit);
-  ASSERT_TRUE(empty.gather().done());
-  EXPECT_LT(with_lists[5], 0.99 * empty.lx[5]);
-}
-
-/// The mean over the sub-patch of the mesh that is nearest to a place.
-double value_at(const Gathered& g, std::uint32_t m, const Vec3& place) {
-  const Scene& s = g.scene.loaded.scene;
-  const Mesh& mesh = s.meshes[m];
-  double best = 1e30, value = 0;
-  for (std::uint32_t k = 0; k < mesh.sub_patch_count(); ++k) {
-    const double apart = length_squared(sub_patch_piece(s, mesh, k).centre() + s.origin - place);
-    if (apart >= best) continue;
-    best = apart;
-    value = static_cast<double>(g.lx[mesh.first_sub_patch + k]);
-  }
-  EXPECT_LT(best, 1e-4);
-  return value;
-}
-
-/// CIE 171 5.6, the values of references.md: one reflection, an open room, so nothing may be scaled up to 1.
+/// CIE 171 5.6, the values of references.md: one reflection, an open room; squares of 2 cm where the table has a value.
+/// The error of 65536 rays is some N^-0.75 = 2.4e-4 of a hemisphere of floor, 100 here; twice that is allowed.
 TEST(Gather, OneReflectionFromAFloorMatchesCie171Case56) {
-  Gathered room(grey(0.5) + "material black diffuse 0\nobject floor_\n" +
-                    patchy("white", {0, 0, 0, 4, 0, 0, 4, 4, 0, 0, 4, 0}, 8, 8) + "object wall\n" +
-                    patchy("black", {0, 0, 0, 0, 0, 3, 4, 0, 3, 4, 0, 0}, 18, 9) + "object ceiling_\n" +
-                    patchy("black", {0, 0, 3, 0, 4, 3, 4, 4, 3, 4, 0, 3}, 8, 9),
-                precise(), [](const Vec3&, std::uint32_t m) { return m == 0 ? 1000.0 : 0; });
-  ASSERT_TRUE(room.gather().done());
   const double z[] = {.75, 1.25, 1.75, 2.25, 2.75}, wall[] = {35.901, 27.992, 21.639, 16.716, 12.967};
-  for (int k = 0; k < 5; ++k) EXPECT_NEAR(value_at(room, 1, {2, 0, z[k]}) / 5, wall[k], 0.01 * wall[k]) << z[k];
   const double y[] = {.25, .75, 1.25, 1.75}, ceiling[] = {26.795, 30.939, 33.976, 35.567};
-  for (int k = 0; k < 4; ++k) {
-    EXPECT_NEAR(value_at(room, 2, {2, y[k], 3}) / 5, ceiling[k], 0.01 * ceiling[k]) << y[k];
-  }
+  std::string text = black_and_white() + "object floor_\n" + facing("+z", "white", {0, 0, 0}, {4, 4, 0});
+  text += "object wall\n";
+  for (const double at : z) text += facing("+y", "black", {1.99, 0, at - 0.01}, {2.01, 0, at + 0.01});
+  text += "object ceiling_\n";
+  for (const double at : y) text += facing("-z", "black", {1.99, at - 0.01, 3}, {2.01, at + 0.01, 3});
+  Gathered room(text, 65536, [](const Vec3&, std::uint32_t m) { return m == 0 ? 1000.0 : 0; });
+  ASSERT_TRUE(room.gather().done());
+  for (std::uint32_t k = 0; k < 5; ++k) EXPECT_NEAR(room.gathered(1 + k, 0) / 5, wall[k], 0.05) << z[k];
+  for (std::uint32_t k = 0; k < 4; ++k) EXPECT_NEAR(room.gathered(6 + k, 0) / 5, ceiling[k], 0.05) << y[k];
 }
 
 /// A room with a table-like slab and a bright spot on the floor.
@@ -95,111 +50,104 @@ std::string furnished(double rho) {
 
 double spot(const Vec3& p, std::uint32_t m) { return m == 0 && p.x > 2 && p.y < 1.6 ? 5000.0 : 50.0; }
 
-/// By kernels from 3 x 3 places of a sub-patch to 8 x 8 places of each sub-patch, a segment each, everything in the
-/// file's order.
-double slowly_gathered(Gathered& g, std::uint32_t m, std::uint32_t local, Intersector& intersector) {
-  const Scene& s = g.scene.loaded.scene;
+/// What a point gets from a piece, of what the piece sends: its 8 x 8 places by kernels, a segment each. Where all of
+/// it stands in front, they say what part of the contour integral is seen, so that nothing is lost close by.
+double slow_factor(const Gathered& g, const Vec3& from, const Vec3& normal, const LatticePoint& start,
+                   std::uint32_t other, const Piece& piece, Intersector& intersector) {
+  const Vec3 area = (1.0 / 64) * piece.vector_area();
+  bool in_front = true;
+  for (const Vec3& corner : piece.corner) in_front = in_front && dot(normal, corner - from) > -1e-9;
+  double all = 0, seen = 0;
+  for (int b = 0; b < 64; ++b) {
+    const Vec3 to = piece.point((b % 8 + 0.5) / 8, (b / 8 + 0.5) / 8), way = to - from;
+    const double squared = length_squared(way), cosines = dot(normal, way) * -dot(area, way);
+    if (!(dot(normal, way) > 0) || !(cosines > 0)) continue;
+    const double part = cosines / (M_PI * squared * squared);
+    all += part;
+    const LatticePoint end = sample_point(g.scene.loaded.scene, g.scene.geometry, other, 0, to);
+    if (!intersector.blocked(start, end, {0, 1, LightSet::kAmbient}, Aim{})) seen += part;
+  }
+  return all > 0 && in_front ? seen / all * filled(from, normal, piece) : seen;
+}
+
+/// From 4 x 4 places of a sub-patch, everything in the file's order. Meshes before it have gathered, those after it
+/// haven't.
+double slowly_gathered(const Gathered& before, const Gathered& after, std::uint32_t m, std::uint32_t local,
+                       Intersector& intersector) {
+  const Scene& s = before.scene.loaded.scene;
   const Piece own = sub_patch_piece(s, s.meshes[m], local);
   const Vec3 normal = normalised(own.vector_area());
   double sum = 0;
-  for (int a = 0; a < 9; ++a) {
-    const Vec3 from = own.point((a % 3 + 0.5) / 3, (a / 3 + 0.5) / 3);
-    const LatticePoint start = sample_point(s, g.scene.geometry, m, 0, from);
+  for (int a = 0; a < 16; ++a) {
+    const Vec3 from = own.point((a % 4 + 0.5) / 4, (a / 4 + 0.5) / 4);
+    const LatticePoint start = sample_point(s, before.scene.geometry, m, 0, from);
     for (std::uint32_t other = 0; other < s.meshes.size(); ++other) {
       const Mesh& mesh = s.meshes[other];
       for (std::uint32_t k = 0; other != m && k < mesh.sub_patch_count(); ++k) {
-        const Piece piece = sub_patch_piece(s, mesh, k);
-        const Vec3 area = (1.0 / 64) * piece.vector_area();
-        const std::size_t at = mesh.first_sub_patch + k;
         const double sends = s.materials[mesh.material].diffuse.c[0] *
-                             (static_cast<double>(g.direct[at]) + static_cast<double>(g.lx[at]));
-        for (int b = 0; b < 64; ++b) {
-          const Vec3 to = piece.point((b % 8 + 0.5) / 8, (b / 8 + 0.5) / 8), way = to - from;
-          const double squared = length_squared(way), cosines = dot(normal, way) * -dot(area, way);
-          if (!(dot(normal, way) > 0) || !(cosines > 0)) continue;
-          if (intersector.blocked(start, sample_point(s, g.scene.geometry, other, 0, to),
-                                  {0, 1, LightSet::kAmbient}, Aim{})) {
-            continue;
-          }
-          sum += sends * cosines / (M_PI * squared * squared);
-        }
+                             (static_cast<double>(before.direct[mesh.first_sub_patch + k]) +
+                              (other < m ? after : before).gathered(other, k));
+        const Piece piece = sub_patch_piece(s, mesh, k);
+        sum += sends * slow_factor(before, from, normal, start, other, piece, intersector);
       }
     }
   }
-  return sum / 9;
+  return sum / 16;
 }
 
-/// 3 % where the slab's shadow and its edges are: two to four segments a node, and contact with the wall.
+/// Root mean square, of the mean illuminance; 4096 rays leave 0.003 (measured).
 TEST(Gather, AgreesWithAGatherOverEverything) {
-  Gathered room(furnished(0.6), precise(), spot);
-  Gathered again(furnished(0.6), precise(), spot);
+  Gathered room(furnished(0.6), 4096, spot), again(furnished(0.6), 4096, spot);
   ASSERT_TRUE(again.gather().done());
   Intersector off(room.scene.geometry);
   const Scene& s = room.scene.loaded.scene;
-  double square = 0, count = 0, mean = 0, worst = 0;
+  double square = 0, count = 0, mean = 0;
   for (std::uint32_t m = 0; m < s.meshes.size(); ++m) {
-    for (std::uint32_t k = 0; k < s.meshes[m].sub_patch_count(); k += 23) {
-      const std::size_t at = s.meshes[m].first_sub_patch + k;
-      const double slow = slowly_gathered(room, m, k, off), fast = static_cast<double>(again.lx[at]);
+    for (std::uint32_t k = 0; k < s.meshes[m].sub_patch_count(); k += 47, ++count) {
+      const double slow = slowly_gathered(room, again, m, k, off), fast = again.gathered(m, k);
       square += (slow - fast) * (slow - fast);
-      mean += slow + static_cast<double>(room.direct[at]);
-      worst = std::max(worst, std::abs(slow - fast));
-      ++count;
+      mean += slow + static_cast<double>(room.direct[s.meshes[m].first_sub_patch + k]);
     }
   }
   mean /= count;
-  RecordProperty("rms", std::to_string(std::sqrt(square / count) / mean));
-  RecordProperty("worst", std::to_string(worst / mean));
-  EXPECT_LT(std::sqrt(square / count), 0.02 * mean);
+  EXPECT_LT(std::sqrt(square / count), 0.006 * mean);
 }
 
-/// A floor under half of which a coloured pane hangs, against a sum over 128 x 128 places of the floor.
-TEST(Gather, PanesWeakenWhatComesThroughThemByTheMeanOfTheirChannels) {
-  const double passes[3] = {0.9, 0.5, 0.1}, mean = (0.9 + 0.5 + 0.1) / 3;
-  const auto scene = [&](bool pane) {
-    return grey(0.5) + "material black diffuse 0\nmaterial red diffuse 0 transmit 0.9 0.5 0.1\nobject floor_\n" +
-           patchy("white", {0, 0, 0, 4, 0, 0, 4, 4, 0, 0, 4, 0}, 8, 8) + "object ceiling_\n" +
-           patchy("black", {0, 0, 3, 0, 4, 3, 4, 4, 3, 4, 0, 3}, 8, 8) +
-           (pane ? "object pane_\n" + patchy("red", {-1, -1, 1.3, 2.1, -1, 1.3, 2.1, 5, 1.3, -1, 5, 1.3}, 1, 1) : "");
-  };
-  const auto lit = [](const Vec3&, std::uint32_t m) { return m == 0 ? 1000.0 : 0; };
-  Gathered room(scene(true), precise(), lit), bare(scene(false), precise(), lit);
-  const Scene& s = room.scene.loaded.scene;
-  ASSERT_EQ(s.channels, 3u);
-  ASSERT_EQ(s.optics_of(s.meshes[2].material)->transmit.c[2], passes[2]);
-  ASSERT_TRUE(room.gather().done());
-  ASSERT_TRUE(bare.gather().done());
-  const Mesh& ceiling = s.meshes[1];
-  double dimmest = 1, brightest = 0, square = 0;
-  for (std::uint32_t k = 0; k < ceiling.sub_patch_count(); ++k) {
-    const Vec3 at = sub_patch_piece(s, ceiling, k).centre() + s.origin;
-    double expected = 0, in_the_open = 0;
-    for (int i = 0; i < 128 * 128; ++i) {
-      const double x = (i % 128 + 0.5) / 32, y = (i / 128 + 0.5) / 32, squared = length_squared(at - Vec3{x, y, 0});
-      const double lx = 500 * (3.0 * 3.0) / (M_PI * squared * squared) / (32 * 32);
-      const double crosses = x + (at.x - x) * 1.3 / 3;
-      expected += lx * (crosses < 2.1 ? mean : 1);
-      in_the_open += lx;
+/// Of all sub-patches of black walls and a black ceiling over a floor with a bright spot, against contour integrals:
+/// root mean square, of the mean. Four times the rays leave half of it at most (N^-0.6 would leave 0.44), and at 4096
+/// nothing stays that they can't remove (measured: 0.184, 0.075, 0.037, 0.014).
+TEST(Gather, TheErrorFallsAsRaysGrow) {
+  std::string text = black_and_white() + with_sub_patches(box_walls(4, 3, 2.5, 8, 6, 5, "black"), "2 2");
+  text.replace(text.find("quad black"), 10, "quad white");
+  text.replace(text.find("sub 2 2"), 7, "sub 1 1");
+  std::vector<double> expected;
+  double last = 1, mean = 0;
+  for (const std::uint32_t rays : {64u, 256u, 1024u, 4096u}) {
+    Gathered room(text, rays, spot);
+    ASSERT_TRUE(room.gather().done());
+    const Scene& s = room.scene.loaded.scene;
+    const Unhidden unhidden(room);
+    double square = 0;
+    std::size_t at = 0;
+    for (std::uint32_t m = 1; m < s.meshes.size(); ++m) {
+      for (std::uint32_t k = 0; k < s.meshes[m].sub_patch_count(); ++k, ++at) {
+        if (last == 1) expected.push_back(unhidden(m, k));
+        square += (room.gathered(m, k) - expected[at]) * (room.gathered(m, k) - expected[at]);
+      }
     }
-    dimmest = std::min(dimmest, expected / in_the_open);
-    brightest = std::max(brightest, expected / in_the_open);
-    const double open = static_cast<double>(bare.lx[std::size_t{ceiling.first_sub_patch + k} * 3]);
-    EXPECT_NEAR(open, in_the_open, 0.005 * in_the_open);
-    for (std::uint32_t c = 0; c < 3; ++c) {
-      // The pane's edge lies across a column of patches of the floor; two to four segments say what of each it hides.
-      const double found = static_cast<double>(room.lx[std::size_t{ceiling.first_sub_patch + k} * 3 + c]);
-      EXPECT_NEAR(found, expected, 0.03 * in_the_open) << k << ' ' << c;
-      square += (found - expected) * (found - expected) / (in_the_open * in_the_open);
+    if (last == 1) {
+      for (const double lx : expected) mean += lx / static_cast<double>(expected.size());
     }
+    const double error = std::sqrt(square / static_cast<double>(at)) / mean;
+    EXPECT_LT(error, 0.6 * last) << rays;
+    last = error;
   }
-  EXPECT_LT(std::sqrt(square / (3 * ceiling.sub_patch_count())), 0.01);
-  // The pane shows: sub-patches see little or most of the floor through it.
-  EXPECT_LT(dimmest, 0.65);
-  EXPECT_GT(brightest, 0.85);
+  EXPECT_LT(last, 0.02);
 }
 
+/// 1024 rays leave some 4 % (TheErrorFallsAsRaysGrow), which 262 patches with their own directions make 0.25 %.
 TEST(Gather, KeepsTheEnergyOfTheSolution) {
-  Gathered room(furnished(0.6), precise(), spot);
+  Gathered room(furnished(0.6), 1024, spot);
   std::vector<float> before = room.lx;
   ASSERT_TRUE(room.gather().done());
   const Scene& s = room.scene.loaded.scene;
@@ -211,28 +159,143 @@ TEST(Gather, KeepsTheEnergyOfTheSolution) {
       solved += area * static_cast<double>(before[mesh.first_sub_patch + k]);
     }
   }
-  EXPECT_NEAR(gathered, solved, 0.01 * solved);
+  EXPECT_NEAR(gathered, solved, 0.005 * solved);
+}
+
+/// A black floor of 5 x 5 patches a metre under one of 6 x 6 that are bright by turns.
+Gathered under_tiles(std::uint32_t rays, const std::string& counts = "patches 5 5 sub 1 1") {
+  return Gathered(black_and_white() + "object floor_\n" + facing("+z", "black", {0, 0, 0}, {3, 3, 0}, counts) +
+                      "object tiles\n" + facing("-z", "white", {0, 0, 1}, {3, 3, 1}, "patches 6 6 sub 1 1"),
+                  rays, [](const Vec3& p, std::uint32_t m) {
+                    return m == 1 && (static_cast<int>(2 * p.x) + static_cast<int>(2 * p.y)) % 2 == 0 ? 2000.0 : 0;
+                  });
+}
+
+/// The sub-patches of a patch share their directions, so that 1024 rays leave about 3 % on all of them alike.
+TEST(Gather, MoreThanSixteenSubPatchesOfAPatchGather) {
+  for (const char* counts : {"patches 1 1 sub 4 4", "patches 1 1 sub 5 5", "patches 2 1 sub 3 11"}) {
+    Gathered floor = under_tiles(1024, counts);
+    const std::uint32_t count = floor.scene.loaded.scene.meshes[0].sub_patch_count();
+    std::fill(floor.lx.begin(), floor.lx.begin() + count, 0.0f);
+    ASSERT_TRUE(floor.gather().done());
+    const Unhidden expected(floor);
+    Errors errors;
+    for (std::uint32_t k = 0; k < count; ++k) errors.add(floor.gathered(0, k), expected(0, k));
+    EXPECT_LT(errors.worst(), 0.1) << counts;
+  }
+}
+
+TEST(Gather, ZeroRaysAreTheDefault) {
+  Gathered none = under_tiles(0), same = under_tiles(kGatherRays), other = under_tiles(kGatherRays - 1);
+  for (Gathered* each : {&none, &same, &other}) ASSERT_TRUE(each->gather().done());
+  EXPECT_EQ(none.lx, same.lx);
+  EXPECT_NE(none.lx, other.lx);
+  // On average, but for a few rays where light doesn't vary: the tiles face a black floor.
+  const std::uint64_t rays = none.scene.statistics.segments_ambient, asked = kGatherRays * std::uint64_t{25 + 36};
+  EXPECT_NEAR(static_cast<double>(rays), static_cast<double>(asked), 0.1 * static_cast<double>(asked));
 }
 
 TEST(Gather, FlagsOffAndAutoGiveTheSameBits) {
-  Options coarse;
-  coarse.gather_error = 5e-3;  // off tests every triangle
-  Gathered off(furnished(0.6), coarse, spot), found(furnished(0.6), coarse, spot);
+  const std::string more =
+      "material glass diffuse 0.1 transmit 0.7\nobject more\n"
+      "tri white 2.5 2 0.5  3 2.5 1  2.7 2.9 0.2 patches 2 sub 2\n"
+      "grid white 3 2  0.2 0.2 0.5  0.5 0.2 0.7  0.9 0.2 0.5  0.2 0.6 0.5  0.5 0.7 0.7  0.9 0.6 0.6\n"
+      "quad glass 3 0.2 0.1  3 2.8 0.1  3 2.8 2.4  3 0.2 2.4  patches 2 2 sub 1 1\n"
+      "quad white 3.2 1 0.3  3.9 1.3 0.5  3.3 1.2 1  3.1 2 1.6  patches 2 2 sub 2 2\n"
+      "light panel area  quad 1.5 1.5 2.4  1.5 2 2.4  2 2 2.4  2 1.5 2.4  luminance 100\n";
+  Gathered off(furnished(0.6) + more, 32, spot), found(furnished(0.6) + more, 32, spot);
   ASSERT_TRUE(off.gather(FlagMode::kOff).done());
   ASSERT_TRUE(found.gather(FlagMode::kAuto).done());
   EXPECT_EQ(off.lx, found.lx);
+  EXPECT_EQ(off.scene.statistics.segments_ambient, found.scene.statistics.segments_ambient);
+  EXPECT_GT(off.scene.statistics.tests_ambient, found.scene.statistics.tests_ambient);
 }
 
 TEST(Gather, BlackSurfacesReceiveAndHiddenSubPatchesKeepWhatTheyHave) {
   Gathered room(furnished(0.6) + "material black diffuse 0\nobject plate\nquad black 3 1 1.2  3.5 1 1.2  3.5 1.5 1.2  "
-                                 "3 1.5 1.2 patches 1 1 sub 2 2\n",
-                precise(), spot);
+                                 "3 1.5 1.2 patches 2 1 sub 2 2\n",
+                64, spot);
   const Mesh& plate = room.scene.loaded.scene.meshes.back();
   room.hidden[plate.first_sub_patch] = 1;
-  room.lx[plate.first_sub_patch] = 7;
+  room.scene.visible[plate.first_patch + 1] = 0;
+  for (const std::uint32_t k : {0, 2, 3, 6, 7}) room.lx[plate.first_sub_patch + k] = 7;
   ASSERT_TRUE(room.gather().done());
-  EXPECT_EQ(room.lx[plate.first_sub_patch], 7);
-  for (std::uint32_t k = 1; k < 4; ++k) EXPECT_GT(room.lx[plate.first_sub_patch + k], 100);
+  for (const std::uint32_t k : {0, 2, 3, 6, 7}) EXPECT_EQ(room.lx[plate.first_sub_patch + k], 7) << k;
+  for (const std::uint32_t k : {1, 4, 5}) EXPECT_GT(room.lx[plate.first_sub_patch + k], 100) << k;
+}
+
+/// A sheet beside a floor, between it and a part of the ceiling: what it shows, a lit back, or the front or the back of
+/// an area light, is as good as black. 16384 rays leave some N^-0.75 = 7e-4 of a lit hemisphere, 500; four times that
+/// is allowed.
+TEST(Gather, BacksAndLightsAreMetAndSendNothing) {
+  const auto lit_by = [](const std::string& sheet) {
+    Gathered floor(black_and_white() + "object floor_\n" + facing("+z", "black", {0, 0, 0}, {2, 2, 0}) +
+                       "object ceiling_\n" + facing("-z", "white", {-40, -40, 2}, {42, 42, 2}) + sheet,
+                   16384, [](const Vec3&, std::uint32_t m) { return m > 0 ? 1000.0 : 0; });
+    std::fill(floor.lx.begin(), floor.lx.end(), 0.0f);  // a white sheet lights the ceiling
+    EXPECT_TRUE(floor.gather().done());
+    return floor.gathered(0, 0);
+  };
+  const double open = lit_by(""), black = lit_by("object o\n" + facing("-x", "black", {2.5, -9, -1}, {2.5, 9, 1.9}));
+  EXPECT_LT(black, 0.85 * open);
+  EXPECT_NEAR(lit_by("object o\n" + facing("+x", "white", {2.5, -9, -1}, {2.5, 9, 1.9})), black, 1.4);
+  const std::string light = "light l area quad 2.5 -9 -1  ", rest = "2.5 9 1.9  ", end = "luminance 500\n";
+  EXPECT_NEAR(lit_by(light + "2.5 9 -1  " + rest + "2.5 -9 1.9  " + end), black, 1.4);
+  EXPECT_NEAR(lit_by(light + "2.5 -9 1.9  " + rest + "2.5 9 -1  " + end), black, 1.4);
+}
+
+struct Asked {
+  std::uint64_t stop = 0, calls = 0, last = 0, total = 0;
+
+  Progress progress() {
+    return {[](void* to, Stage stage, std::uint64_t done, std::uint64_t of) {
+              Asked& asked = *static_cast<Asked*>(to);
+              EXPECT_EQ(stage, Stage::kSolution);
+              EXPECT_TRUE(done < of && (asked.calls == 0 || done > asked.last)) << done << " of " << of;
+              asked.last = done;
+              asked.total = of;
+              return ++asked.calls != asked.stop;
+            },
+            this};
+  }
+};
+
+TEST(Gather, StopsWhenItIsToldToAndAsksOften) {
+  Asked all;
+  Gathered room(furnished(0.6), 4, spot);
+  ASSERT_TRUE(room.gather(FlagMode::kAuto, all.progress()).done());
+  const std::vector<float> whole = room.lx;
+  EXPECT_EQ(all.total % room.scene.patches.size(), 0u);
+  EXPECT_GE(all.calls, room.scene.patches.size() / 16);
+  for (const std::uint64_t stop : {std::uint64_t{1}, all.calls / 2, all.calls - 1}) {
+    room.start();
+    Asked asked{.stop = stop};
+    EXPECT_EQ(room.gather(FlagMode::kAuto, asked.progress()).code, StatusCode::kInterrupted);
+    EXPECT_EQ(asked.calls, stop);
+    EXPECT_TRUE(stop > 1 || room.lx != whole);
+  }
+  room.start();
+  ASSERT_TRUE(room.gather().done());
+  EXPECT_EQ(room.lx, whole);
+}
+
+TEST(Gather, WorksInTheBytesThatItSaysAndIsRefusedInLess) {
+  for (const FlagMode flags : {FlagMode::kAuto, FlagMode::kOff}) {
+    Gathered room(furnished(0.6), 4, spot);
+    Arena counted(room.memory.data(), room.memory.size() * 8);
+    Intersector counting(room.scene.geometry, room.scene.loaded.scene, flags);
+    ASSERT_TRUE(counting.take_flags(counted));
+    Options options = room.scene.options;
+    options.flags = flags;
+    EXPECT_TRUE(room.gather(flags).done());
+    const std::vector<float> with_plenty = room.lx;
+    room.start();
+    room.memory.resize((counted.used() + gather_bytes(room.scene.loaded.scene, room.scene.geometry, options)) / 8);
+    EXPECT_TRUE(room.gather(flags).done());
+    EXPECT_EQ(room.lx, with_plenty);
+    room.memory.pop_back();
+    EXPECT_EQ(room.gather(flags).code, StatusCode::kMemory);
+  }
 }
 
 TEST(Gather, ThePapersRulesKeepThePapersInterpolation) {

@@ -1,0 +1,181 @@
+#include "ambient/sub_patch_finder.h"
+
+#include "scene/mesh.h"
+
+namespace shodo {
+
+namespace {
+
+constexpr double kFlat = 1e-6;  // of a side: a parallelogram but for so much
+constexpr int kSteps = 8;
+constexpr double kNear = 1e-2;  // Newton's next step is about its square
+
+/// Parameters on a piece, as Piece::point() takes them.
+struct Parameters {
+  double s, t;
+};
+
+/// Of a point in the plane of corner, corner + s, corner + t.
+Parameters affine_parameters(const Vec3& off, const Vec3& s, const Vec3& t) {
+  const Vec3 n = cross(s, t);
+  const double squared = length_squared(n);
+  if (!(squared > 0)) return {0.5, 0.5};
+  return {dot(off, cross(t, n)) / squared, dot(off, cross(n, s)) / squared};
+}
+
+/// On a piece that is cut into two halves, each affine.
+Parameters cut_parameters(const Piece& piece, const Vec3& at) {
+  const Vec3* c = piece.corner;
+  if (piece.concave) {
+    const Parameters p = affine_parameters(at - c[0], c[1] - c[0], c[3] - c[0]);
+    if (p.s + p.t <= 1) return p;
+    const Parameters q = affine_parameters(at - c[2], c[3] - c[2], c[1] - c[2]);
+    return {1 - q.s, 1 - q.t};
+  }
+  const Parameters p = affine_parameters(at - c[0], c[1] - c[0], c[2] - c[1]);
+  if (p.s >= p.t) return p;
+  return affine_parameters(at - c[0], c[2] - c[3], c[3] - c[0]);
+}
+
+/// Newton's steps from the middle; off the piece, if it is twisted, the nearest along it.
+Parameters bilinear_parameters(const Piece& piece, const Vec3& at) {
+  const Vec3* c = piece.corner;
+  Parameters p{0.5, 0.5};
+  for (int step = 0; step < kSteps; ++step) {
+    const Vec3 along_s = (1 - p.t) * (c[1] - c[0]) + p.t * (c[2] - c[3]);
+    const Vec3 along_t = (1 - p.s) * (c[3] - c[0]) + p.s * (c[2] - c[1]);
+    const Vec3 off = at - piece.point(p.s, p.t);
+    const double ss = dot(along_s, along_s), st = dot(along_s, along_t), tt = dot(along_t, along_t);
+    const double of_s = dot(off, along_s), of_t = dot(off, along_t), square = ss * tt - st * st;
+    if (!(square > 0)) break;
+    const double more_s = (tt * of_s - st * of_t) / square, more_t = (ss * of_t - st * of_s) / square;
+    p.s += more_s;
+    p.t += more_t;
+    if (magnitude(more_s) + magnitude(more_t) < kNear) break;
+  }
+  return p;
+}
+
+bool is_linear(const Piece& piece) {
+  if (piece.corners == 3) return true;
+  const Vec3 gap = (piece.corner[0] - piece.corner[1]) + (piece.corner[2] - piece.corner[3]);
+  const double least = kFlat * piece.longest_side();
+  return length_squared(gap) <= least * least;
+}
+
+/// Map coordinates, 32.32.
+struct MapPoint {
+  std::int64_t u, v;
+};
+
+/// Sub-patch of a row or column.
+std::uint32_t part(std::int64_t at, std::uint32_t count) {
+  const std::int32_t whole = static_cast<std::int32_t>(at >> 32);
+  if (whole < 0) return 0;
+  return static_cast<std::uint32_t>(whole) < count ? static_cast<std::uint32_t>(whole) : count - 1;
+}
+
+std::uint32_t sub_patch_at(const Mesh& mesh, const MapPoint& at) {
+  const std::uint32_t width = mesh.map_width();
+  if (mesh.kind != MeshKind::kTriangle) return part(at.v, mesh.map_height()) * width + part(at.u, width);
+  const std::uint32_t row = part(at.v, width), column = part(at.u, width - row);
+  const std::int64_t beyond = at.u + at.v - (std::int64_t{column + row + 1} << 32);
+  return triangle_piece_order(width, {column, row, beyond > 0 && column + row + 1 < width});
+}
+
+/// In 2^-32, within what 32 bits hold.
+std::int32_t scaled_slope(double slope) {
+  const double scaled = slope * 0x1p32;
+  return scaled >= 0x1p31 ? INT32_MAX : scaled <= -0x1p31 ? INT32_MIN : static_cast<std::int32_t>(scaled);
+}
+
+/// Of a mesh: sub-patches in one of its cells, and the cell's first.
+struct CellPlace {
+  std::uint32_t in_u, in_v, first_u, first_v;
+  bool turned;  // the cell's first edge runs along v
+
+  CellPlace(const Mesh& mesh, std::uint32_t cell) {
+    turned = mesh.kind == MeshKind::kGrid;
+    const std::uint32_t width = mesh.nu * mesh.su, height = mesh.nv * mesh.sv;
+    const std::uint32_t columns = turned ? mesh.cells_u : 1, rows = turned ? mesh.cells_v : 1;
+    in_u = width / columns;
+    in_v = height / rows;
+    first_u = in_u * (cell % columns);
+    first_v = in_v * (cell / columns);
+  }
+};
+
+}  // namespace
+
+std::uint64_t SubPatchFinder::bytes(const Geometry& geometry) {
+  return (sizeof(Cell) * geometry.cells.size() + 7) / 8 * 8 + (4 * geometry.triangles.size() + 7) / 8 * 8;
+}
+
+bool SubPatchFinder::take(const Scene& scene, const Geometry& geometry, Arena& arena) {
+  scene_ = &scene;
+  geometry_ = &geometry;
+  if (!arena.take("polygons that rays meet", geometry.cells.size(), cells_) ||
+      !arena.take("polygons of triangles", geometry.triangles.size(), cell_of_)) {
+    return false;
+  }
+  for (std::uint32_t& cell : cell_of_) cell = kNone;
+  for (std::uint32_t k = 0; k < geometry.cells.size(); ++k) {
+    const PolygonTriangles& polygon = geometry.cells[k];
+    for (std::uint32_t t = 0; t < polygon.count; ++t) cell_of_[polygon.first + t] = k;
+  }
+  for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
+    for (std::uint32_t k = 0; k < cell_count(scene.meshes[m]); ++k) fill(m, k, cells_[geometry.first_cell[m] + k]);
+  }
+  return true;
+}
+
+void SubPatchFinder::fill(std::uint32_t m, std::uint32_t number, Cell& cell) const {
+  const Mesh& mesh = scene_->meshes[m];
+  const Piece piece = cell_piece(*scene_, mesh, number);
+  cell.mesh = m;
+  cell.linear = is_linear(piece) ? 1 : 0;
+  if (cell.linear == 0) return;
+  const Vec3 s = piece.corner[1] - piece.corner[0], t = piece.corner[piece.corners == 3 ? 2 : 3] - piece.corner[0];
+  const Vec3 n = cross(s, t);
+  const double squared = length_squared(n), over = squared > 0 ? geometry_->lattice.step() / squared : 0;
+  const Vec3 along_s = over * cross(t, n), along_t = over * cross(n, s);
+  const CellPlace place(mesh, number);
+  const auto set = [](std::uint32_t count, const Vec3& along, std::int32_t (&slope)[3]) {
+    slope[0] = scaled_slope(count * along.x);
+    slope[1] = scaled_slope(count * along.y);
+    slope[2] = scaled_slope(count * along.z);
+  };
+  set(place.in_u, place.turned ? along_t : along_s, cell.along_u);
+  set(place.in_v, place.turned ? along_s : along_t, cell.along_v);
+  cell.corner = even_point(geometry_->lattice, piece.corner[0]);
+  cell.first_u = place.first_u;
+  cell.first_v = place.first_v;
+}
+
+SubPatchFinder::Found SubPatchFinder::find(std::uint32_t triangle, const LatticePoint& at) const {
+  const std::uint32_t number = cell_of_[triangle];
+  if (number == kNone) return {};
+  const Cell& cell = cells_[number];
+  const Mesh& mesh = scene_->meshes[cell.mesh];
+  if (cell.linear == 0) return {cell.mesh, find_bent(mesh, number - geometry_->first_cell[cell.mesh], at)};
+  const std::int32_t x = at.x - cell.corner.x, y = at.y - cell.corner.y, z = at.z - cell.corner.z;
+  const auto along = [&](const std::int32_t (&slope)[3], std::uint32_t first) {
+    return product(slope[0], x) + product(slope[1], y) + product(slope[2], z) + (std::int64_t{first} << 32);
+  };
+  return {cell.mesh, sub_patch_at(mesh, {along(cell.along_u, cell.first_u), along(cell.along_v, cell.first_v)})};
+}
+
+std::uint32_t SubPatchFinder::find_bent(const Mesh& mesh, std::uint32_t number, const LatticePoint& at) const {
+  const Piece piece = cell_piece(*scene_, mesh, number);
+  const Vec3 point = scene_point(geometry_->lattice, at);
+  const Parameters p = piece.cut || piece.concave ? cut_parameters(piece, point) : bilinear_parameters(piece, point);
+  const CellPlace place(mesh, number);
+  const auto along = [](double parameter, std::uint32_t count, std::uint32_t first) {
+    const double inside = parameter > 0 ? parameter < 1 ? parameter * count : count : 0;  // not a number: 0
+    return static_cast<std::int64_t>((inside + first) * 0x1p32);
+  };
+  return sub_patch_at(mesh, {along(place.turned ? p.t : p.s, place.in_u, place.first_u),
+                             along(place.turned ? p.s : p.t, place.in_v, place.first_v)});
+}
+
+}  // namespace shodo

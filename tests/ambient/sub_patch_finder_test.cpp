@@ -1,0 +1,200 @@
+// Which sub-patch a point of a surface lies on, against the pieces of scene/mesh.h, made from the counts alone.
+#include "ambient/sub_patch_finder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/mesh.h"
+#include "tests/visibility/scenes.h"
+
+namespace shodo {
+namespace {
+
+struct Finding : HandMadeScene {
+  void start() {
+    place();
+    ASSERT_TRUE(status.done());
+    const std::size_t before = arena.used();
+    ASSERT_TRUE(finder.take(scene, geometry, arena));
+    EXPECT_EQ(arena.used(), before + SubPatchFinder::bytes(geometry));
+  }
+
+  /// The triangle of a mesh over which a point lies: the one with the largest of the smallest of its three weights.
+  /// The point goes to its plane, along the largest component of its normal.
+  std::uint32_t triangle_at(std::uint32_t m, Vec3& point) const {
+    const double steps = geometry.lattice.steps_per_unit;
+    std::uint32_t best = kNone;
+    double most = -1e300;
+    Vec3 on;
+    for (std::uint32_t cell = 0; cell < cell_count(scene.meshes[m]); ++cell) {
+      const PolygonTriangles& polygon = geometry.cells[geometry.first_cell[m] + cell];
+      for (std::uint32_t t = polygon.first; t < polygon.first + polygon.count; ++t) {
+        const Triangle& triangle = geometry.triangles[t];
+        const Vec3 n = vector_of(triangle.n), at = steps * point;
+        const Vec3 a = vector_of(triangle.a - LatticePoint{}), b = vector_of(triangle.b - LatticePoint{}),
+                   c = vector_of(triangle.c - LatticePoint{});
+        const auto weight = [&](const Vec3& p, const Vec3& q) {
+          return dot(cross(q - p, at - p), n) / length_squared(n);
+        };
+        const double least = std::min({weight(a, b), weight(b, c), weight(c, a)});
+        if (least <= most) continue;
+        most = least;
+        best = t;
+        on = at - (dot(n, at - a) / length_squared(n)) * n;
+      }
+    }
+    EXPECT_GT(most, -1e-3) << "no triangle there";
+    point = on;
+    return best;
+  }
+
+  SubPatchFinder::Found at(std::uint32_t m, Vec3 point) const {
+    const std::uint32_t triangle = triangle_at(m, point);
+    const auto whole = [](double x) { return static_cast<std::int32_t>(std::lround(x)); };
+    const LatticePoint steps{whole(point.x), whole(point.y), whole(point.z)};
+    return finder.find(triangle, steps);
+  }
+
+  /// Every sub-patch of a mesh is found at its centre and near its corners: `inset` of its sides from them.
+  void expect_all_found(std::uint32_t m, double inset = 0.03) {
+    const Mesh& mesh = scene.meshes[m];
+    std::uint32_t asked = 0;
+    for (std::uint32_t k = 0; k < mesh.sub_patch_count(); ++k) {
+      const Piece piece = sub_patch_piece(scene, mesh, k);
+      if (!(length(piece.vector_area()) > 1e-9)) continue;
+      const double near = inset, far = 1 - (piece.corners == 3 ? 2 : 1) * inset;
+      const bool triangle = piece.corners == 3;
+      const Vec3 points[] = {piece.centre(), piece.point(near, near), piece.point(far, near), piece.point(near, far),
+                             triangle ? piece.centre() : piece.point(far, far)};
+      for (const Vec3& point : points) {
+        const SubPatchFinder::Found found = at(m, point);
+        EXPECT_EQ(found.mesh, m);
+        EXPECT_EQ(found.sub_patch, k) << "mesh " << m << ", point " << &point - points;
+      }
+      ++asked;
+    }
+    EXPECT_GT(asked, 0u);
+  }
+
+  SubPatchFinder finder;
+};
+
+TEST(SubPatchFinder, FindsEverySubPatchOfParallelograms) {
+  Finding scene;
+  const std::uint32_t flat = scene.quad({0, 0, 0}, {6, 0, 0}, {6, 4, 0}, {0, 4, 0}, 3, 2, 2, 3);
+  const std::uint32_t tilted = scene.quad({1, 5, 1}, {4, 6, 3}, {3, 9, 4}, {0, 8, 2}, 2, 3, 3, 1);
+  const std::uint32_t upside_down = scene.quad({0, 4, 7}, {6, 4, 7}, {6, 0, 7}, {0, 0, 7}, 1, 5, 4, 2);
+  scene.start();
+  for (const std::uint32_t m : {flat, tilted, upside_down}) scene.expect_all_found(m);
+}
+
+TEST(SubPatchFinder, FindsEverySubPatchOfQuadsThatAreNone) {
+  Finding scene;
+  const std::uint32_t trapezium = scene.quad({0, 0, 0}, {8, 0, 0}, {5, 4, 0}, {3, 4, 0}, 4, 2, 2, 3);
+  const std::uint32_t leaning = scene.quad({0, 5, 0}, {7, 5, 3}, {8, 9, 3.5}, {0, 7, 0}, 2, 2, 1, 4);
+  // Not plane: a corner stands off the plane of the others by a tenth of the sides.
+  const std::uint32_t twisted = scene.quad({0, 10, 0}, {4, 10, 0}, {4, 14, 0.4}, {0, 14, 0}, 2, 3, 2, 1);
+  scene.start();
+  for (const std::uint32_t m : {trapezium, leaning, twisted}) scene.expect_all_found(m);
+}
+
+/// Cut on the diagonal that lies inside, and even on both halves.
+TEST(SubPatchFinder, FindsEverySubPatchOfConcaveQuads) {
+  Finding scene;
+  const std::uint32_t at_corner_2 = scene.quad({0, 0, 0}, {6, 0, 0}, {2, 2, 0}, {0, 6, 0}, 3, 3, 2, 2);
+  const std::uint32_t at_corner_0 = scene.quad({12, 4, 0}, {14, 0, 1}, {14, 6, 1}, {8, 6, -2}, 2, 2, 2, 2);
+  const std::uint32_t at_corner_1 = scene.quad({0, 8, 0}, {2, 10, 0}, {6, 8, 0}, {0, 14, 0}, 3, 3, 2, 2);
+  const std::uint32_t at_corner_3 = scene.quad({8, 8, 0}, {14, 8, 2}, {14, 14, 2}, {12, 10, 4. / 3}, 2, 2, 2, 2);
+  for (const std::uint32_t m : {at_corner_2, at_corner_0, at_corner_1, at_corner_3}) scene.mesh(m).cut = true;
+  scene.mesh(at_corner_1).concave = scene.mesh(at_corner_3).concave = true;
+  scene.start();
+  for (const std::uint32_t m : {at_corner_2, at_corner_0, at_corner_1, at_corner_3}) scene.expect_all_found(m);
+}
+
+TEST(SubPatchFinder, FindsEverySubPatchOfTriangles) {
+  Finding scene;
+  scene.triangle({0, 0, 0}, {8, 0, 0}, {0, 6, 0}, 1, 1);
+  scene.triangle({0, 7, 0}, {8, 7, 0}, {0, 13, 0}, 2, 3);
+  scene.triangle({0, 14, 5}, {3, 20, 1}, {9, 15, 2}, 4, 1);
+  scene.triangle({10, 0, 0}, {10, 5, 1}, {10, 2, 8}, 1, 5);
+  scene.start();
+  for (std::uint32_t m = 0; m < 4; ++m) scene.expect_all_found(m);
+}
+
+/// Cells are even and uneven, concave ones among them; one has no area, so that it has no triangles.
+TEST(SubPatchFinder, FindsEverySubPatchOfGrids) {
+  Finding scene;
+  const std::uint32_t even = scene.grid(3, 4, {{0, 0, 0}, {2, 0, 0}, {5, 0, 0}, {0, 1, 1}, {2, 1, 1}, {5, 1, 1},
+                                               {0, 3, 1}, {2, 3, 1}, {5, 3, 1}, {0, 4, 3}, {2, 4, 3}, {5, 4, 3}},
+                                        2, 1, 2, 3);
+  const std::uint32_t uneven = scene.grid(3, 2, {{7, 0, 0}, {8, 0, 0}, {10, 0, 0}, {7, 2, 0}, {8, 3, 0}, {10, 2, 0}},
+                                          2, 3, 1, 2);
+  // The middle column's cell is nothing but an edge; the last one is concave.
+  const std::uint32_t odd = scene.grid(4, 2, {{0, 6, 0}, {3, 6, 0}, {3, 6, 0}, {6, 6, 0},
+                                              {0, 9, 0}, {3, 9, 0}, {3, 9, 0}, {4, 7, 0}},
+                                       2, 2, 2, 2);
+  scene.mesh(odd).cut = true;
+  const std::uint32_t after = scene.quad({0, 10, 0}, {6, 10, 0}, {6, 12, 0}, {0, 12, 0}, 2, 2);
+  scene.start();
+  EXPECT_EQ(scene.geometry.cells[scene.geometry.first_cell[odd] + 1].count, 0u);
+  for (const std::uint32_t m : {even, uneven, odd, after}) scene.expect_all_found(m);
+}
+
+/// 300 steps of the lattice wide; its corners go to even points, 1 % of a sub-patch.
+TEST(SubPatchFinder, FindsSubPatchesOfASmallMeshInALargeScene) {
+  Finding scene;
+  scene.quad({0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0});
+  const std::uint32_t small = scene.quad({9, 9, 1}, {9.01, 9, 1}, {9.01, 9, 1.01}, {9, 9, 1.01}, 2, 2, 2, 2);
+  scene.start();
+  scene.expect_all_found(small, 0.05);
+}
+
+TEST(SubPatchFinder, FindsThroughTrianglesOfInsertedVertices) {
+  Finding scene;
+  const std::uint32_t wide = scene.quad({0, 0, 0}, {9, 0, 0}, {9, 4, 0}, {0, 4, 0}, 3, 2, 2, 2);
+  const std::uint32_t crooked = scene.quad({0, 4, 0}, {2, 8, 0}, {7, 8, 0}, {9, 4, 0}, 2, 2, 2, 2);
+  for (int k = 0; k < 3; ++k) {
+    const double x = 1 + 2 * k;
+    scene.quad({x, 4, 0}, {x + 1, 4, 0}, {x + 1, 4, 3}, {x, 4, 3});
+    scene.quad({x, 0, 0}, {x, 0, 2}, {x + 1, 0, 2}, {x + 1, 0, 0});
+  }
+  scene.start();
+  EXPECT_GE(scene.geometry.inserted, 12u);
+  EXPECT_GE(scene.geometry.cells[scene.geometry.first_cell[wide]].count, 14u);
+  EXPECT_GE(scene.geometry.cells[scene.geometry.first_cell[crooked]].count, 8u);
+  scene.expect_all_found(wide);
+  scene.expect_all_found(crooked);
+}
+
+TEST(SubPatchFinder, AnAreaLightHasNone) {
+  for (const int quads : {0, 1, 2}) {
+    Finding scene;
+    if (quads > 0) scene.quad({0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, 2, 2);
+    // Without area, so the light's triangles begin where its own would.
+    if (quads > 1) scene.quad({0, 5, 0}, {4, 5, 0}, {4, 5, 0}, {0, 5, 0});
+    const std::uint32_t light = scene.area_light({0, 0, 3}, {0, 2, 3}, {2, 2, 3}, {2, 0, 3});
+    scene.start();
+    const PolygonTriangles& polygon = scene.geometry.light_triangles[light];
+    ASSERT_EQ(polygon.count, 2u);
+    for (std::uint32_t k = 0; k < polygon.count; ++k) {
+      const SubPatchFinder::Found found =
+          scene.finder.find(polygon.first + k, scene.geometry.triangles[polygon.first + k].a);
+      EXPECT_EQ(found.mesh, kNone);
+      EXPECT_EQ(found.sub_patch, kNone);
+    }
+  }
+}
+
+TEST(SubPatchFinder, SaysWhenTheArenaIsTooSmall) {
+  Finding scene;
+  scene.quad({0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, 2, 2);
+  scene.start();
+  Arena none(nullptr, 0);
+  SubPatchFinder finder;
+  EXPECT_FALSE(finder.take(scene.scene, scene.geometry, none));
+}
+
+}  // namespace
+}  // namespace shodo
