@@ -69,6 +69,7 @@ struct ParallelRays::Nearest {
 
 ParallelRays::ParallelRays(const Geometry& geometry, Intersector& intersector)
     : geometry_(geometry), intersector_(intersector) {
+  if (intersector.facets().empty()) around_.include(LatticePoint{});
   for (const Facet& facet : intersector.facets()) around_.include(facet.box);
   for (int k = 0; k < 3; ++k) {  // flat ones are thinner than flat
     --around_.low[k];

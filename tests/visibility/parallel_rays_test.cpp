@@ -116,6 +116,20 @@ TEST(ParallelRays, MeetWhatTryingEveryTriangleMeets) {
   EXPECT_EQ(apart_by_much, 0u);
 }
 
+TEST(ParallelRays, WhereNothingStandsNothingIsMet) {
+  HandMadeScene scene;
+  scene.place(1);
+  ASSERT_TRUE(scene.status.done());
+  Intersector on(scene.geometry, scene.scene, FlagMode::kAuto);
+  ASSERT_TRUE(on.start(scene.arena));
+  ParallelRays rays(scene.geometry, on);
+  LatticeBox box;
+  box.include(LatticePoint{400001, -400001, 1});
+  rays.aim(box, lattice_direction({1, -1, 0.5}));
+  EXPECT_EQ(rays.first({400001, -400001, 1}).triangle, kNone);
+  EXPECT_EQ(rays.tests(), 0u);
+}
+
 TEST(ParallelRays, NothingOutsideASweepIsMet) {
   HandMadeScene scene;
   build(scene, 77);
