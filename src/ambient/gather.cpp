@@ -3,6 +3,7 @@
 #include "ambient/ray_light.h"
 #include "ambient/ray_places.h"
 #include "ambient/spiral.h"
+#include "base/finite.h"
 #include "base/interrupted.h"
 #include "scene/sub_patches.h"
 
@@ -33,6 +34,8 @@ struct Point {
   std::uint64_t sum[3] = {0, 0, 0};  // of what its rays brought, in units of SentLight
 };
 
+static_assert(sizeof(Point) == 224);  // as src/memory_plan.cpp tells
+
 struct Memory {
   SubPatchFinder finder;
   SentLight sent;
@@ -62,7 +65,7 @@ class Gather {
   bool place(const RayStarts& starts, std::uint32_t local, Point& point) const;
   void gather(std::uint32_t count);
   [[gnu::noinline]] void shoot(std::span<Point> points);
-  void note_spread(std::uint32_t count, double sum, double squares);
+  void note_spread(std::uint32_t count, double all, double squares);
   void store(const Point& point);
 
   const Scene& scene_;
@@ -118,11 +121,14 @@ void Gather::shoot(std::span<Point> points) {
 }
 
 /// Neyman's allocation (1934): the area-weighted variance of all means is least, for as many rays in all, if each has
-/// rays in proportion to the square root of its area times its variance over its cost.
+/// rays in proportion to the square root of its area times its variance over its cost. The variance is that of the
+/// points' mean; a direction costs as much for each of them as (count + 1) / count rays. Areas in steps of the lattice,
+/// since a scene's own units may be any.
 void Gather::note_spread(std::uint32_t count, double all, double squares) {
   const Mesh& mesh = scene_.meshes[mesh_];
   const double variance = (squares - all * all / rays_here_) / rays_here_;
-  const double area = length(patch_piece(scene_, mesh, patch_).vector_area()) / (mesh.su * mesh.sv);
+  const double steps = geometry_.lattice.steps_per_unit;
+  const double area = length(patch_piece(scene_, mesh, patch_).vector_area()) * steps * steps / (mesh.su * mesh.sv);
   const double weighted = area * variance / (count * (count + kPerDirection));
   const float spread = weighted > 0 ? static_cast<float>(square_root(weighted)) : 0.0f;
   float& most = memory_.spread[mesh.first_patch + patch_];
@@ -133,7 +139,7 @@ void Gather::store(const Point& point) {
   const std::size_t first = (std::size_t{scene_.meshes[mesh_].first_sub_patch} + point.sub_patch) * scene_.channels;
   const double over = memory_.sent.unit() / rays_here_;
   for (std::uint32_t c = 0; c < scene_.channels; ++c) {
-    ambient_lx_[first + c] = static_cast<float>(over * static_cast<double>(point.sum[c]));
+    ambient_lx_[first + c] = static_cast<float>(finite(over * static_cast<double>(point.sum[c])));
   }
 }
 
@@ -175,7 +181,7 @@ std::uint32_t Gather::rays_of(std::uint32_t patch) const {
 void Gather::share_out() {
   double spread = 0, parts = 0;
   for (const Mesh& mesh : scene_.meshes) {
-    const double here = mesh.su * mesh.sv;
+    const double here = static_cast<double>(mesh.su) * mesh.sv;
     for (std::uint32_t k = 0; k < mesh.patch_count(); ++k) {
       spread += here * static_cast<double>(memory_.spread[mesh.first_patch + k]);
       parts += here;
@@ -225,7 +231,8 @@ Status gather_illuminance(const Scene& scene, const Geometry& geometry, const Di
       !arena.take("spread of light", scene.patch_count, memory.spread) || !intersector.take_masks(arena)) {
     return arena.refused();
   }
-  const std::uint32_t rays = options.gather_rays > 0 ? options.gather_rays : kGatherRays;
+  const std::uint32_t asked = options.gather_rays > 0 ? options.gather_rays : kGatherRays;
+  const std::uint32_t rays = asked < kMostGatherRays ? asked : kMostGatherRays;
   Gather gather(scene, geometry, direct, rays, intersector, memory, ambient_lx);
   if (!gather.run(progress)) return interrupted();
   statistics.segments_ambient = intersector.segments(LightSet::kAmbient);

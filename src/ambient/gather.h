@@ -13,7 +13,7 @@
 // value each. Values that are new already are used, meshes ascending. Rays know nothing of the flags that a scene
 // gives: they meet what is there. Exact: what a ray meets. Approximate: the mean, to about N^-0.6 of its spread; a
 // twisted patch has its mean normal.
-// Bytes: those of the intersector, 52 a polygon, 4 a triangle, 2 a sub-patch and channel, 4 a patch, 3,712.
+// Bytes: those of the intersector, 52 a polygon, 4 a triangle, 2 a sub-patch and channel, 4 a patch, 3,584.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@
 
 namespace shodo {
 
-/// Rays of a sub-patch.
+/// Rays of a sub-patch, on average.
 inline constexpr std::uint32_t kGatherRays = 256;
 
 /// `ambient_lx` holds what was interpolated, [sub_patch * channels + channel], and gets what is gathered by every

@@ -6,7 +6,7 @@ namespace shodo {
 
 /// Of the direction.
 double RayLight::distance_to(const Triangle& triangle, const LatticePoint& from) const {
-  return static_cast<double>(triangle.side(from)) / -static_cast<double>(dot(triangle.n, *direction_));
+  return static_cast<double>(triangle.side(from)) / -static_cast<double>(dot(triangle.n, direction_));
 }
 
 /// By channel; none of an area light.
@@ -28,7 +28,7 @@ void RayLight::weaken(const LatticePoint& from, double end, double (&part)[3]) c
   for (const Pane& pane : geometry_.panes) {
     for (std::uint32_t t = pane.first; t < pane.first + pane.count; ++t) {
       const Triangle& triangle = geometry_.triangles[t];
-      if (!passes(triangle, from, *direction_) || !(distance_to(triangle, from) < end)) continue;
+      if (!passes(triangle, from, direction_) || !(distance_to(triangle, from) < end)) continue;
       for (std::uint32_t c = 0; c < scene_.channels; ++c) part[c] *= pane.transmit.c[c];
     }
   }
@@ -46,7 +46,7 @@ void RayLight::add_through_panes(const LatticePoint& from, const ParallelRays::F
   for (const Pane& pane : geometry_.panes) {
     for (std::uint32_t t = pane.first; t < pane.first + pane.count; ++t) {
       const Triangle& triangle = geometry_.triangles[t];
-      if (!(triangle.side(from) > 0) || !passes(triangle, from, *direction_)) continue;
+      if (!(triangle.side(from) > 0) || !passes(triangle, from, direction_)) continue;
       const double distance = distance_to(triangle, from);
       if (!(distance < end)) continue;
       double part[3] = {1, 1, 1};
@@ -54,8 +54,7 @@ void RayLight::add_through_panes(const LatticePoint& from, const ParallelRays::F
       const auto along = [&](std::int32_t at, std::int64_t way) {
         return static_cast<std::int32_t>(at + distance * static_cast<double>(way));
       };
-      const LatticeVector& way = *direction_;
-      add_part(part, t, {along(from.x, way.x), along(from.y, way.y), along(from.z, way.z)}, sum);
+      add_part(part, t, {along(from.x, direction_.x), along(from.y, direction_.y), along(from.z, direction_.z)}, sum);
     }
   }
 }

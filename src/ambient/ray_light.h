@@ -1,7 +1,8 @@
 // What rays bring: rho E of the sub-patch that each meets first (ambient/gather.h).
 //
 // Backs are black, and area lights bring nothing: theirs is direct light. Panes weaken what comes through them, channel
-// by channel, and bring what their fronts reflect, weakened by the panes before them.
+// by channel, and bring what their fronts reflect, weakened by the panes before them. All of them are asked for each
+// ray, and again for each that it passes: scenes have few.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +19,9 @@ class RayLight {
            const SentLight& sent)
       : scene_(scene), geometry_(geometry), finder_(finder), sent_(sent), rays_(geometry, intersector) {}
 
-  /// As ParallelRays::aim(). `direction` is kept, not copied.
+  /// As ParallelRays::aim().
   void aim(const LatticeBox& from, const LatticeVector& direction) {
-    direction_ = &direction;
+    direction_ = direction;
     rays_.aim(from, direction);
   }
   std::uint64_t tests() const { return rays_.tests(); }
@@ -40,7 +41,7 @@ class RayLight {
   const SubPatchFinder& finder_;
   const SentLight& sent_;
   ParallelRays rays_;
-  const LatticeVector* direction_ = nullptr;
+  LatticeVector direction_;
 };
 
 }  // namespace shodo

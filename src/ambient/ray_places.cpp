@@ -6,7 +6,7 @@ namespace shodo {
 
 namespace {
 
-/// Where in the unit square, in parts of its sides: k below kMost, or that much more.
+/// Where in the unit square, in parts of its sides.
 struct Part {
   std::uint32_t column, row;
 };
@@ -15,7 +15,7 @@ struct Part {
 /// part of a square that is cut into so many, in columns, rows or squares. Bits of columns and rows are turned over
 /// from sub-patch to sub-patch. So the mean of sixteen is the middle of their parts.
 Part part_of(std::uint32_t k, std::uint32_t sub_patch) {
-  static_assert(RayPlaces::kMost == 16);
+  static_assert(RayPlaces::kMost == 16);  // higher bits of k count for nothing
   const std::uint32_t turned = sub_patch * 0x9e3779b9;  // 2^32 / golden ratio
   const bool bit[4] = {(k & 1) != 0, (k & 2) != 0, (k & 4) != 0, (k & 8) != 0};
   const std::uint32_t column = bit[0] * 8u ^ bit[1] * 4u ^ bit[2] * 2u ^ bit[3] * 1u;

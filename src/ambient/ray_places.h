@@ -9,11 +9,11 @@
 
 namespace shodo {
 
-/// A part of them.
+/// Those of a sub-patch that are seen.
 struct RayPlaces {
   static constexpr std::uint32_t kMost = 16;
   LatticePoint from[kMost];
-  std::uint32_t count = 0;  // of those that are seen
+  std::uint32_t count = 0;
 
   const LatticePoint& of_ray(std::uint32_t ray) const { return from[ray % count]; }
 };
@@ -27,8 +27,8 @@ class RayStarts {
       : scene_(scene), geometry_(geometry), intersector_(intersector), mesh_(mesh), cell_(cell),
         front_(flat_front(geometry, mesh, cell)) {}
 
-  /// Of the places of a sub-patch (counted from the mesh's first) `count` from `first` on; none if it has no area. Wide
-  /// aims of the intersector are not valid afterwards.
+  /// Of the places of a sub-patch (counted from the mesh's first) `count` from `first` on, beginning anew after the
+  /// last; none if it has no area. Wide aims of the intersector are not valid afterwards.
   void find(std::uint32_t local, std::uint32_t first, std::uint32_t count, RayPlaces& places) const;
 
  private:

@@ -49,7 +49,7 @@ void SentLight::set(const MeshReflectance& reflectance, const Mesh& mesh, std::u
   const std::size_t first = (std::size_t{mesh.first_sub_patch} + local) * channels_;
   for (std::uint32_t c = 0; c < channels_; ++c) {
     const double units = rho[c] * lx(first + c, ambient_lx) * over_unit_;
-    packed_[first + c] = packed(static_cast<std::uint32_t>(units < kMost ? units : kMost));
+    packed_[first + c] = packed(static_cast<std::uint32_t>(units > 0 ? units < kMost ? units : kMost : 0));
   }
 }
 

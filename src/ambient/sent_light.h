@@ -1,7 +1,7 @@
 // What sub-patches send, rho E, in integers: sums of what rays meet take no floating point (ambient/gather.h).
 //
 // A unit is 4 / (2^32 - 1) of the brightest illuminance at the start; 11 bits of a value are kept, and how far it is
-// shifted. Approximate: to 2^-12 of itself and a unit; what becomes more than four times as bright as all that was at
+// shifted. Approximate: to 2^-11 of itself and a unit; what becomes more than four times as bright as all that was at
 // the start counts as that. Bytes: 2 a sub-patch and channel.
 #pragma once
 

@@ -2,8 +2,8 @@
 //
 // A triangle of the geometry is one of a polygon of the file, found by its number. On a triangle or a parallelogram map
 // coordinates are linear in the point; elsewhere the bilinear map is inverted by Newton's steps, a polygon that is cut
-// by halves. Approximate: coordinates are known to 1e-4 of a sub-patch, and a point that rounding puts beyond an edge
-// counts as on it.
+// by halves. Approximate: coordinates are known to 1e-3 of a sub-patch and a step of the lattice, and a point that
+// rounding puts beyond an edge counts as on it.
 // Bytes: 52 a polygon, 4 a triangle.
 #pragma once
 

@@ -6,6 +6,7 @@
 // ambient stage wants the patches only, so sub-patches lie in spare blocks; if it takes those they are lit once more.
 #include "light/direct.h"
 
+#include "base/finite.h"
 #include "base/interrupted.h"
 #include "light/mirror_light.h"
 #include "light/piece_grid.h"
@@ -26,9 +27,6 @@ constexpr std::uint32_t kManySubPatches = 3;
 constexpr std::int32_t kRounding = 8;
 /// Corners of a cell this near to one plane, of its size, are on it but for rounding.
 constexpr double kPlane = 0x1p-40;
-
-/// A light of 1e308 cd is a scene's right; infinity in an output is not.
-double finite(double x) { return x < std::numeric_limits<float>::max() ? x : std::numeric_limits<float>::max(); }
 
 /// Of the last sub-patch on a quadrilateral.
 PatchPlace place_of(const Mesh& mesh, const SubPatchesOfPatch& at) {

@@ -1,7 +1,6 @@
 #include "light/plane_light.h"
 
-#include <limits>
-
+#include "base/finite.h"
 #include "base/interrupted.h"
 #include "light/mirror_light.h"
 #include "light/sources.h"
@@ -12,8 +11,6 @@ namespace shodo {
 namespace {
 
 constexpr std::uint32_t kProgressInterval = 64;
-
-double finite(double x) { return x < std::numeric_limits<float>::max() ? x : std::numeric_limits<float>::max(); }
 
 /// As of a surface's sub-patch (light/direct.cpp): through coloured panes every channel by itself.
 SubPatchLight plane_light(Sources& sources, MirrorLight& mirrors, const Receiver& receiver, const Piece& piece) {

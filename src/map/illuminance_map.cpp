@@ -1,5 +1,6 @@
 #include "map/illuminance_map.h"
 
+#include "base/finite.h"
 #include "map/parabolic.h"
 #include "map/triangle_spread.h"
 
@@ -57,7 +58,7 @@ struct MeshMap {
     return maps.ambient_lx[(std::size_t{mesh.first_sub_patch} + local) * scene.channels + c];
   }
   void set(std::uint32_t local, std::uint32_t c, double lx) const {
-    sub_patch_lx(local, c) = hidden(local) ? 0.0f : static_cast<float>(lx);
+    sub_patch_lx(local, c) = hidden(local) ? 0.0f : static_cast<float>(finite(lx));
   }
 };
 

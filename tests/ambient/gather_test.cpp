@@ -185,6 +185,20 @@ TEST(Gather, MoreThanSixteenSubPatchesOfAPatchGather) {
   }
 }
 
+/// What is brighter than a float counts as the largest.
+TEST(Gather, LightAsLargeAsFloatsGoStaysANumber) {
+  Gathered room(grey(0.99) + box_walls(4, 3, 2.5, 2, 2, 2, "white"), 64,
+                [](const Vec3&, std::uint32_t m) { return m == 0 ? 3e38 : 0; });
+  for (float& lx : room.lx) lx = std::min(lx, 3e38f);
+  ASSERT_TRUE(room.gather().done());
+  float most = 0;
+  for (const float lx : room.lx) {
+    EXPECT_TRUE(std::isfinite(lx));
+    most = std::max(most, lx);
+  }
+  EXPECT_GT(most, 1e37f);
+}
+
 TEST(Gather, ZeroRaysAreTheDefault) {
   Gathered none = under_tiles(0), same = under_tiles(kGatherRays), other = under_tiles(kGatherRays - 1);
   for (Gathered* each : {&none, &same, &other}) ASSERT_TRUE(each->gather().done());

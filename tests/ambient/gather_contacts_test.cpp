@@ -31,7 +31,7 @@ Gathered lit_by_white(const std::string& text, std::uint32_t rays) {
 /// A strip of four sub-patches, 0.7 m x 6 cm each, and seven bright patches of 10 cm at `c` over the last of them,
 /// 1.05 m from the strip's middle; against the mean of the closed form of points. A row is narrow and seen from far
 /// along it, so that 16384 rays leave 0.3 % of what it would send if it were all around.
-TEST(GatherNear, AStripsSubPatchIsNotFarFromWhatIsNearItAlone) {
+TEST(GatherContacts, AStripsSubPatchIsNotFarFromWhatIsNearItAlone) {
   for (const double c : {0.1, 0.2, 0.3}) {
     Gathered strip = lit_by_white("object strip_\n" +
                                       facing("+z", "black", {0, 0, 0}, {2.8, 0.06, 0}, "patches 1 1 sub 4 1") +
@@ -59,7 +59,7 @@ double adjacent_exchange(double l, double a, double b, double w, double h) {
 
 /// Against Howell C-14: strips along the foot of a wall of 64 patches, and tiles there. 64 x 4096 rays leave some
 /// 3e-4 of what a white hemisphere would send (measured; N^-0.6).
-TEST(GatherNear, BesideAnEdgeAWallGetsWhatTheClosedFormSays) {
+TEST(GatherContacts, BesideAnEdgeAWallGetsWhatTheClosedFormSays) {
   const double length = 0.5;
   for (const double height : {0.06, 0.5}) {
     for (const double width : {0.01, 0.05, 0.5}) {
@@ -95,7 +95,7 @@ std::string lid(const std::string& name, const Vec3& low, const Vec3& high, char
 /// seen; the box is beyond all that the rest sees of the panel. Of columns and rows of places every other one is seen:
 /// their middle is off the rest's by 1/32 of the side at most, each way. What is beside that is noise, N^-0.75 of what
 /// a bright hemisphere would send, and as much again. What is wholly under a box keeps what it has.
-TEST(GatherNear, ASubPatchPartlyUnderABoxGathersWhereItIsSeen) {
+TEST(GatherContacts, ASubPatchPartlyUnderABoxGathersWhereItIsSeen) {
   struct Case {
     double x, y;  // of the sub-patch, seen
   };
