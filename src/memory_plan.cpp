@@ -127,8 +127,9 @@ PartText plan_part_text(PlanPart part) {
       {"while measuring", "(44 + 8 c) sub-patches of a plane's patch"},
       {"ambient maps", "4 c s"},
       {"spreading over a mesh, or gathering",
-       "9 a patch + 8 a row of sub-patches, of the largest mesh; --gather: possible blockers + 52 polygons + "
-       "4 triangles + 2 c s + 4 n + 3,584"},
+       "9 a patch + 8 a row of sub-patches, of the largest mesh; --gather: 52 polygons + 4 triangles + "
+       "(2 c + 5) s + the larger of possible blockers and 164 polygons + 4 corners + 1,024, less what stands where n "
+       "has values"},
       {"drawing, or placing again",
        "1,952 + 2 c s + 8,193 + (4 c + 3) width + 4 rows + 10 drawn + 208 active triangles; textures: 4/3 of their "
        "texels"},

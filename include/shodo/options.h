@@ -19,7 +19,7 @@ struct Rules {
   double blocks_error = 0;      // 0: the default
 };
 
-inline constexpr std::uint32_t kMostGatherRays = 65536;
+inline constexpr std::uint32_t kMostGatherLines = 65536;
 
 struct Options {
   /// Whether sub-patches gather.
@@ -41,7 +41,7 @@ struct Options {
   bool interpolate = true;
   bool gather = false;                 // every sub-patch gathers its ambient light (doc/gather.md); not with rules 1,
                                        // 2, 2+ and 3, which are the paper's, as its interpolation is
-  std::uint32_t gather_rays = 0;       // of a sub-patch on average, up to kMostGatherRays; 0: the
+  std::uint32_t gather_lines = 0;      // of a sub-patch on average, up to kMostGatherLines; 0: the
                                        // default
   std::uint32_t row_value_bits = 16;   // 16 or 64
   bool mirror_light = false;           // mirrors send light on, once

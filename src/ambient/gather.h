@@ -1,19 +1,22 @@
 // A final gather: the ambient illuminance of every sub-patch, once the patches' is known (ours, beyond paper 2.3;
 // deviation D19; doc/gather.md).
 //
-//     E_x = mean over rays of rho E of the sub-patch that is met first,     E direct and ambient
+//     E_x = mean over lines from x of rho E of the sub-patch at their other end,     E direct and ambient
 //
-// over N rays from 16 places of the sub-patch x, in directions even by cosine (ambient/spiral.h). The sub-patches of a
-// patch share their directions, so that what parallel rays can meet is listed once for all of them
-// (visibility/parallel_rays.h). A pilot of up to 32 rays, whose light isn't used, tells how much light varies over the
-// directions of a patch; of the others a quarter are shared out evenly, three quarters by that and by area, so that
-// N is the mean over the scene.
+// Lines go through the whole scene ("global lines", Sbert 1993): bundles of parallel ones (visibility/line_bundle.h) in
+// directions even over the sphere. Of all that a line crosses, each two that face each other with nothing in between
+// send each other light: so every piece of a line serves both its ends. Lines lie evenly across their direction,
+// so they leave a surface even by cosine and by area, and all count the same; a sub-patch has lines in proportion to
+// its area, N on average.
 //
-// No form factor, no segment, nothing is scaled: what is left is noise, and that the sub-patches that are met are one
-// value each. Values that are new already are used, meshes ascending. Rays know nothing of the flags that a scene
-// gives: they meet what is there. Exact: what a ray meets. Approximate: the mean, to about N^-0.6 of its spread; a
-// twisted patch has its mean normal.
-// Bytes: those of the intersector, 52 a polygon, 4 a triangle, 2 a sub-patch and channel, 4 a patch, 3,584.
+// The interpolated value that a sub-patch has counts as 16 of its lines. What sub-patches send is found anew after a
+// sixteenth, an eighth, a quarter and half of the bundles. Of one that stands partly inside or under something the
+// hidden part is left out of the mean. No form factor, no segment, nothing is scaled.
+// Exact: what faces what along each line. Approximate: the mean of N lines, to about N^-0.6 of its spread; sub-patches
+// that send are one value each; the visible part of a sub-patch, in sixteenths.
+// Bytes: 52 a polygon, 4 a triangle, 2 a sub-patch and channel, 5 a sub-patch, and 164 a polygon, 4 a corner of it and
+// 1,024, or those of the intersector. Where the arena has no room, 3 a sub-patch and 72 a polygon stand where values of
+// patches do.
 #pragma once
 
 #include <cstdint>
@@ -29,16 +32,21 @@
 
 namespace shodo {
 
-/// Rays of a sub-patch, on average.
-inline constexpr std::uint32_t kGatherRays = 256;
+/// Lines of a sub-patch, on average.
+inline constexpr std::uint32_t kGatherLines = 1024;
+
+/// Values of patches that the maps have in them: they are lost if their room is needed.
+struct GatherRoom {
+  std::span<double> ambient, direct;
+};
 
 /// `ambient_lx` holds what was interpolated, [sub_patch * channels + channel], and gets what is gathered by every
-/// sub-patch that is not hidden and whose patch wasn't dropped. Errors: kMemory, kInterrupted.
+/// sub-patch that is not hidden and whose patch wasn't dropped. Errors: kMemory, kInterrupted; then it is lost.
 Status gather_illuminance(const Scene& scene, const Geometry& geometry, const DirectLight& direct,
                           Intersector& intersector, const Options& options, const Progress& progress, Arena& arena,
-                          std::span<float> ambient_lx, Statistics& statistics);
+                          GatherRoom room, std::span<float> ambient_lx, Statistics& statistics);
 
-/// Arena bytes of it, all of which it gives back.
+/// The arena bytes that it needs at least, all of which it gives back.
 std::uint64_t gather_bytes(const Scene& scene, const Geometry& geometry, const Options& options);
 
 }  // namespace shodo

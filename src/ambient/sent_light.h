@@ -1,4 +1,4 @@
-// What sub-patches send, rho E, in integers: sums of what rays meet take no floating point (ambient/gather.h).
+// What sub-patches send, rho E, in integers: sums of what lines bring take no floating point (ambient/gather.h).
 //
 // A unit is 4 / (2^32 - 1) of the brightest illuminance at the start; 11 bits of a value are kept, and how far it is
 // shifted. Approximate: to 2^-11 of itself and a unit; what becomes more than four times as bright as all that was at
@@ -22,28 +22,24 @@ class SentLight {
     return (2 * std::uint64_t{scene.sub_patch_count} * scene.channels + 7) / 8 * 8;
   }
 
-  /// Of a mesh's sub-patch, by channel; packed.
-  const std::uint16_t* of(const Mesh& mesh, std::uint32_t local) const {
-    return &packed_[(std::size_t{mesh.first_sub_patch} + local) * channels_];
-  }
   /// Units.
   static std::uint32_t unpacked(std::uint16_t packed) {
     return static_cast<std::uint32_t>(packed & ((1u << kBits) - 1)) << (packed >> kBits);
   }
   /// To the nearest.
   static std::uint16_t packed(std::uint32_t units);
-  /// Anew, from what arrives at it.
-  void set(const MeshReflectance& reflectance, const Mesh& mesh, std::uint32_t local,
-           std::span<const float> ambient_lx);
+  /// Of a sub-patch counted from the scene's first, by channel; packed.
+  template <std::uint32_t kChannels>
+  const std::uint16_t* of(std::uint32_t sub_patch) const {
+    return packed_.data() + std::size_t{sub_patch} * kChannels;
+  }
+  /// Anew, from the ambient illuminance by channel.
+  void set(const MeshReflectance& reflectance, const Mesh& mesh, std::uint32_t local, const double (&ambient_lx)[3]);
   /// Lux.
   double unit() const { return unit_; }
 
  private:
   static constexpr int kBits = 11;
-
-  double lx(std::size_t value, std::span<const float> ambient_lx) const {
-    return static_cast<double>(direct_->sub_patch_lx[value]) + static_cast<double>(ambient_lx[value]);
-  }
 
   const DirectLight* direct_ = nullptr;
   std::uint32_t channels_ = 1;

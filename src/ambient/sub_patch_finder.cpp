@@ -114,7 +114,7 @@ std::uint64_t SubPatchFinder::bytes(const Geometry& geometry) {
 bool SubPatchFinder::take(const Scene& scene, const Geometry& geometry, Arena& arena) {
   scene_ = &scene;
   geometry_ = &geometry;
-  if (!arena.take("polygons that rays meet", geometry.cells.size(), cells_) ||
+  if (!arena.take("polygons that lines cross", geometry.cells.size(), cells_) ||
       !arena.take("polygons of triangles", geometry.triangles.size(), cell_of_)) {
     return false;
   }
@@ -163,6 +163,38 @@ SubPatchFinder::Found SubPatchFinder::find(std::uint32_t triangle, const Lattice
     return product(slope[0], x) + product(slope[1], y) + product(slope[2], z) + (std::int64_t{first} << 32);
   };
   return {cell.mesh, sub_patch_at(mesh, {along(cell.along_u, cell.first_u), along(cell.along_v, cell.first_v)})};
+}
+
+bool SubPatchFinder::start(std::uint32_t triangle, const LatticePoint& at, const LatticePoint& way, Walk& walk) const {
+  const std::uint32_t number = cell_of_[triangle];
+  if (number == kNone) return false;
+  const Cell& cell = cells_[number];
+  const Mesh& mesh = scene_->meshes[cell.mesh];
+  const CellPlace place(mesh, number - geometry_->first_cell[cell.mesh]);
+  walk = {};
+  if (place.in_u == 1 && place.in_v == 1) {
+    walk.first_ = mesh.first_sub_patch + place.first_v * mesh.map_width() + place.first_u;
+    return true;
+  }
+  constexpr std::uint32_t kMost = 1 << 14;  // 16.16
+  if (cell.linear == 0 || mesh.kind == MeshKind::kTriangle || place.in_u > kMost || place.in_v > kMost) return false;
+  // Sums wrap around where parts of them don't fit; they themselves do.
+  const auto sum = [](const std::int32_t (&slope)[3], std::int32_t x, std::int32_t y, std::int32_t z, int right) {
+    const std::uint64_t all = static_cast<std::uint64_t>(product(slope[0], x)) +
+                              static_cast<std::uint64_t>(product(slope[1], y)) +
+                              static_cast<std::uint64_t>(product(slope[2], z));
+    return static_cast<std::int32_t>(static_cast<std::int64_t>(all) >> right);
+  };
+  const std::int32_t x = at.x - cell.corner.x, y = at.y - cell.corner.y, z = at.z - cell.corner.z;
+  walk.u_ = sum(cell.along_u, x, y, z, 32 - Walk::kBits);
+  walk.v_ = sum(cell.along_v, x, y, z, 32 - Walk::kBits);
+  walk.along_u_ = sum(cell.along_u, way.x, way.y, way.z, 32 - Walk::kBits + kWayBits);
+  walk.along_v_ = sum(cell.along_v, way.x, way.y, way.z, 32 - Walk::kBits + kWayBits);
+  walk.in_u_ = static_cast<std::uint16_t>(place.in_u);
+  walk.in_v_ = static_cast<std::uint16_t>(place.in_v);
+  walk.width_ = mesh.map_width();
+  walk.first_ = mesh.first_sub_patch + place.first_v * walk.width_ + place.first_u;
+  return true;
 }
 
 std::uint32_t SubPatchFinder::find_bent(const Mesh& mesh, std::uint32_t number, const LatticePoint& at) const {

@@ -1,4 +1,4 @@
-// Which sub-patch a point of a surface lies on: what a ray met (ambient/gather.h).
+// Which sub-patch a point of a surface lies on: what a line crosses (ambient/gather.h).
 //
 // A triangle of the geometry is one of a polygon of the file, found by its number. On a triangle or a parallelogram map
 // coordinates are linear in the point; elsewhere the bilinear map is inverted by Newton's steps, a polygon that is cut
@@ -27,8 +27,42 @@ class SubPatchFinder {
   bool take(const Scene& scene, const Geometry& geometry, Arena& arena);
   static std::uint64_t bytes(const Geometry& geometry);
 
+  /// Whether a triangle is a mesh's, not an area light's.
+  bool is_of_mesh(std::uint32_t triangle) const { return cell_of_[triangle] != kNone; }
   /// At a point of a triangle, or next to it.
   Found find(std::uint32_t triangle, const LatticePoint& at) const;
+
+  /// Points of one polygon that follow each other evenly along a line, and the sub-patches on which they lie.
+  class Walk {
+   public:
+    /// Counted from the scene's first; each call is for the next point.
+    std::uint32_t next() {
+      const std::uint32_t column = part(u_, in_u_), row = part(v_, in_v_);
+      u_ = wrapped_sum(u_, along_u_);
+      v_ = wrapped_sum(v_, along_v_);
+      return first_ + row * width_ + column;
+    }
+
+   private:
+    friend class SubPatchFinder;
+    static constexpr int kBits = 16;  // of a sub-patch
+    static std::uint32_t part(std::int32_t at, std::uint32_t count) {
+      const std::uint32_t whole = static_cast<std::uint32_t>(at >> kBits);
+      return whole < count ? whole : at < 0 ? 0 : count - 1;
+    }
+    /// After the last point it may be anything.
+    static std::int32_t wrapped_sum(std::int32_t a, std::int32_t b) {
+      return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
+    }
+
+    std::int32_t u_ = 0, v_ = 0, along_u_ = 0, along_v_ = 0;
+    std::uint32_t first_ = 0, width_ = 0;
+    std::uint16_t in_u_ = 1, in_v_ = 1;
+  };
+  /// From a point of a triangle on; `way`: from point to point, in 2^-kWayBits of a step. False: map coordinates there
+  /// aren't linear, ask find() for each point.
+  bool start(std::uint32_t triangle, const LatticePoint& at, const LatticePoint& way, Walk& walk) const;
+  static constexpr int kWayBits = 10;
 
  private:
   /// u = first_u + along_u . (at - corner) / 2^32, in sub-patches of the mesh, and so v; not if it isn't linear.

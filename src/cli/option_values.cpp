@@ -162,12 +162,12 @@ bool take_show(std::string_view text, Arguments& a) {
 }
 
 bool take_gather(std::string_view text, Arguments& a) {
-  a.options.gather_rays = 0;
+  a.options.gather_lines = 0;
   if (on_or_off(text, a.options.gather)) return true;
   a.options.gather = true;
-  std::uint32_t rays = 0;
-  if (!parse_unsigned(text, rays) || rays < 1 || rays > kMostGatherRays) return false;
-  a.options.gather_rays = rays;
+  std::uint32_t lines = 0;
+  if (!parse_unsigned(text, lines) || lines < 1 || lines > kMostGatherLines) return false;
+  a.options.gather_lines = lines;
   return true;
 }
 

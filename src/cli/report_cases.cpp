@@ -12,10 +12,10 @@ constexpr Rules kAllRules{.rule1 = true, .rule2 = true, .rule3 = true};
 
 constexpr Rules blocks(double error) { return {.blocks = true, .blocks_error = error}; }
 
-template <std::uint32_t kRays>
+template <std::uint32_t kLines>
 void gather_by(Options& options) {
   options.gather = true;
-  options.gather_rays = kRays;
+  options.gather_lines = kLines;
 }
 
 /// A line of the list; what is 0 or empty is as in the base.
@@ -58,11 +58,11 @@ constexpr Line kLines[] = {
     {CaseGroup::kBlocks, FlagMode::kAuto, blocks(0.01), 1, 1, 1},
 
     // Sub-patches that gather.
-    {CaseGroup::kGather, FlagMode::kAuto, blocks(0), 1, 0, 0, "64 rays", gather_by<64>},
-    {CaseGroup::kGather, FlagMode::kAuto, blocks(0), 1, 0, 0, "256 rays", gather_by<256>},
-    {CaseGroup::kGather, FlagMode::kAuto, blocks(0), 1, 0, 0, "1024 rays", gather_by<1024>},
-    {CaseGroup::kGather, FlagMode::kAuto, blocks(0.001), 1, 0, 0, "256 rays", gather_by<256>},
-    {CaseGroup::kGather, FlagMode::kAuto, kNoRules, 1, 0, 0, "256 rays", gather_by<256>},
+    {CaseGroup::kGather, FlagMode::kAuto, blocks(0), 1, 0, 0, "256 lines", gather_by<256>},
+    {CaseGroup::kGather, FlagMode::kAuto, blocks(0), 1, 0, 0, "1024 lines", gather_by<1024>},
+    {CaseGroup::kGather, FlagMode::kAuto, blocks(0), 1, 0, 0, "4096 lines", gather_by<4096>},
+    {CaseGroup::kGather, FlagMode::kAuto, blocks(0.001), 1, 0, 0, "1024 lines", gather_by<1024>},
+    {CaseGroup::kGather, FlagMode::kAuto, kNoRules, 1, 0, 0, "1024 lines", gather_by<1024>},
 
     // Segments a pair.
     {CaseGroup::kSegments, FlagMode::kAuto, kNoRules, 1, 1, 1},
@@ -135,7 +135,7 @@ std::vector<ReportCase> report_cases(const Options& base, bool mirrors) {
 
 Options reference_options(const Options& base) {
   constexpr double kTiers = 1e-4;
-  constexpr std::uint32_t kRays = 1024;
+  constexpr std::uint32_t kLines = 4096;
   const bool gathers = !base.mirror_light;
   const std::uint32_t first = gathers ? 16 : 64, mixed = gathers ? 64 : 256;
   Options options = base;
@@ -149,7 +149,7 @@ Options reference_options(const Options& base) {
   options.scale_rows = true;
   options.interpolate = true;
   options.gather = gathers;
-  options.gather_rays = kRays;
+  options.gather_lines = kLines;
   return options;
 }
 
@@ -201,7 +201,7 @@ bool same_settings(const Options& a, const Options& b) {
          a.segments_first == b.segments_first && a.segments_mixed == b.segments_mixed &&
          a.interpolate == b.interpolate && a.scale_rows == b.scale_rows && a.row_value_bits == b.row_value_bits &&
          a.tiers == b.tiers && a.mirror_light == b.mirror_light && a.gather == b.gather &&
-         a.gather_rays == b.gather_rays;
+         a.gather_lines == b.gather_lines;
 }
 
 const ReportCase* find_case(const std::vector<ReportCase>& cases, FlagMode flags, const Rules& rules) {

@@ -61,13 +61,13 @@ class Blockers {
   std::span<Facet> facets() { return facets_; }
   std::span<const Facet> facets() const { return facets_; }
 
-  /// Calls visit(facet number) for all in a Shaft or a Sweep, in an order that the geometry fixes.
-  template <class Space, class Visit>
-  void visit(Space space, Visit visit) const {
+  /// Calls visit(facet number) for all in the shaft, in an order that the geometry fixes.
+  template <class Visit>
+  void visit(Shaft shaft, Visit visit) const {
     walk_medians(
-        nodes_.size(), facets_.size(), [&](std::uint32_t node) { return !space.misses(nodes_[node]); },
+        nodes_.size(), facets_.size(), [&](std::uint32_t node) { return !shaft.misses(nodes_[node]); },
         [&](std::uint32_t k) {
-          if (!space.misses(facets_[k].box)) visit(k);
+          if (!shaft.misses(facets_[k].box)) visit(k);
           return true;
         });
   }

@@ -44,9 +44,10 @@ bool passes_flat(const Facet& facet, const LatticePoint& p, const LatticePoint& 
 
 }  // namespace
 
-/// The nearest hit so far.
+/// The nearest hit so far: at the fraction `distance` / `speed` of the direction, |s(P)| / |N.d|.
 struct Intersector::Nearest {
   Hit hit;
+  std::int64_t distance = 0, speed = 1;
 
   /// Two are compared by cross products of 128 bits. Ties: front before back, then the lower index.
   void meet(const Triangle& triangle, std::uint32_t k, const LatticePoint& p, const LatticeVector& direction) {
@@ -54,12 +55,14 @@ struct Intersector::Nearest {
     const std::int64_t through = dot(triangle.n, direction);
     const std::int64_t far = side < 0 ? -side : side;
     const std::int64_t fast = through < 0 ? -through : through;
-    const Hit other{k, side > 0, false, far, fast};
-    if (hit.triangle != kNone && !less_fraction(far, fast, hit.distance, hit.speed)) {
-      if (less_fraction(hit.distance, hit.speed, far, fast)) return;
+    const Hit other{k, side > 0};
+    if (hit.triangle != kNone && !less_fraction(far, fast, distance, speed)) {
+      if (less_fraction(distance, speed, far, fast)) return;
       if (other.front != hit.front ? hit.front : hit.triangle < k) return;
     }
     hit = other;
+    distance = far;
+    speed = fast;
   }
   void offer(const Triangle& triangle, std::uint32_t k, const LatticePoint& p, const LatticeVector& direction) {
     if (blocks_ray(triangle, p, direction)) meet(triangle, k, p, direction);
@@ -114,11 +117,11 @@ std::uint64_t Intersector::bytes(const Geometry& geometry, FlagMode mode) {
 }
 
 /// visit(facet) for all in the shaft, in an order that the geometry fixes.
-template <class Space, class Visit>
-void Intersector::visit(const Space& space, Visit visit) const {
-  if (!masks_.taken()) return blockers_.visit(space, visit);
-  Space narrow = space;
-  masks_.visit(space.from(), space.to(), [&](std::uint32_t k) {
+template <class Visit>
+void Intersector::visit(const Shaft& shaft, Visit visit) const {
+  if (!masks_.taken()) return blockers_.visit(shaft, visit);
+  Shaft narrow = shaft;
+  masks_.visit(shaft.from(), shaft.to(), [&](std::uint32_t k) {
     if (!narrow.misses(blockers_.facets()[k].box)) visit(k);
     return false;
   });
@@ -200,17 +203,6 @@ Aim Intersector::gather_along(const LatticeBox& a, const LatticeVector& directio
   if (!seeking()) return {};
   std::uint32_t count = 0;
   visit(Shaft::along(a, direction), [&](std::uint32_t k) { wide_[count++] = k; });
-  return {wide_.first(count), false};
-}
-
-Aim Intersector::gather_in(const Sweep& sweep, std::size_t& flat) {
-  flat = 0;
-  if (!seeking()) return {};
-  std::size_t count = 0;
-  visit(sweep, [&](std::uint32_t k) {
-    wide_[count++] = k;
-    if (blockers_.facets()[k].tilted == 0) std::swap(wide_[flat++], wide_[count - 1]);
-  });
   return {wide_.first(count), false};
 }
 
@@ -393,19 +385,8 @@ Hit Intersector::nearest(const LatticePoint& p, const LatticeVector& direction, 
   if (!features::kAims || gathered.any_triangle) return nearest(p, direction);
   Nearest best;
   for (const std::uint32_t k : gathered.facets) offer(blockers_.facets()[k], p, direction, best);
-  best.hit.near = best.hit.triangle != kNone && best.hit.distance <= best.hit.speed >> kNearPart;
+  best.hit.near = best.hit.triangle != kNone && best.distance <= best.speed >> kNearPart;
   return best.hit;
-}
-
-std::uint64_t Intersector::tests_of(const Aim& gathered) const {
-  if (features::kAims && !gathered.any_triangle) {
-    std::uint64_t tests = 0;
-    for (const std::uint32_t k : gathered.facets) tests += blockers_.facets()[k].count;
-    return tests;
-  }
-  std::uint64_t tests = geometry_->triangles.size();
-  for (const Pane& pane : geometry_->panes) tests -= pane.count;
-  return tests;
 }
 
 void Intersector::offer(const Facet& facet, const LatticePoint& p, const LatticeVector& direction,

@@ -21,7 +21,6 @@
 #include "visibility/geometry.h"
 #include "visibility/panes.h"
 #include "visibility/shadow.h"
-#include "visibility/sweep.h"
 
 namespace shodo {
 
@@ -30,7 +29,6 @@ struct Hit {
   std::uint32_t triangle = kNone;
   bool front = false;  // seen from its front
   bool near = false;   // within kNearPart of the direction's length
-  std::int64_t distance = 0, speed = 1;  // at distance / speed of the direction: |s(P)| / |N.d|
 };
 inline constexpr int kNearPart = 4;  // bits: 1/16
 
@@ -88,9 +86,6 @@ class Intersector {
   std::size_t others_first(const Aim& aim, std::uint32_t object) const;
   /// Whether this facet blocks, by itself and surely, every segment between two boxes; if so, that is noted.
   bool hides_all(std::uint32_t facet, const LatticeBox& a, const LatticeBox& b, const Link& link);
-  /// Everything that parallel rays may meet, whatever the flags; wide, the facets square to an axis first, `flat` of
-  /// them.
-  Aim gather_in(const Sweep& sweep, std::size_t& flat);
   /// Everything that rays from the box along `direction` may meet, whatever the flags; wide.
   Aim gather_along(const LatticeBox& a, const LatticeVector& direction);
   /// The same for the first part of the rays only, where a hit is `near`.
@@ -111,9 +106,6 @@ class Intersector {
   Hit nearest(const LatticePoint& p, const LatticeVector& direction) const;
   /// The same, given what gather_along() found for a box that holds p and this direction.
   Hit nearest(const LatticePoint& p, const LatticeVector& direction, const Aim& gathered) const;
-
-  /// The tests that a ray among these stands for.
-  std::uint64_t tests_of(const Aim& gathered) const;
 
   /// What weakens the light of a segment that isn't blocked.
   const Panes& panes() const { return panes_; }
@@ -148,8 +140,8 @@ class Intersector {
                              std::span<std::uint32_t> facets, const Aim& aim);
   template <class Miss>
   Aim keep(const Aim& wide, Shaft shaft, Miss misses);
-  template <class Space, class Visit>
-  void visit(const Space& space, Visit visit) const;
+  template <class Visit>
+  void visit(const Shaft& shaft, Visit visit) const;
   Aim aim_in(const Shaft& shaft, const Link& link, std::span<std::uint32_t> list);
   Aim keep_wide(std::span<const std::uint32_t> facets, Shaft shaft);
   std::span<const Triangle> triangles_of(const Facet& facet) const {

@@ -55,10 +55,10 @@ Errors errors_of(Gathered& g, std::uint32_t m) {
 
 double dark(const Vec3&, std::uint32_t) { return 0; }
 
-/// 4096 rays leave 1 % of the brightest (measured), sub-patches mistaken for their neighbours 10 %.
+/// 16384 lines leave 1 % of the brightest (measured), sub-patches mistaken for their neighbours 10 %.
 TEST(GatherShapes, SubPatchesOfEveryKindOfSurfaceSend) {
   for (const Shape& shape : shapes("white")) {
-    Gathered g(over_floor("black", shape.text), 4096, dark);
+    Gathered g(over_floor("black", shape.text), 16384, dark);
     paint(g, 1);
     const Errors errors = errors_of(g, 0);
     EXPECT_LT(errors.rms(), 0.02) << shape.name;
@@ -67,7 +67,7 @@ TEST(GatherShapes, SubPatchesOfEveryKindOfSurfaceSend) {
 
 TEST(GatherShapes, SubPatchesOfEveryKindOfSurfaceReceive) {
   for (const Shape& shape : shapes("black")) {
-    Gathered g(over_floor("white", shape.text), 4096, dark);
+    Gathered g(over_floor("white", shape.text), 16384, dark);
     paint(g, 0);
     const Errors errors = errors_of(g, 1);
     EXPECT_LT(errors.rms(), 0.02) << shape.name;
@@ -90,7 +90,7 @@ TEST(GatherShapes, PatchesOfATextureSendWhatTheyReflect) {
   Gathered g("shodo 1\nmaterial tiles diffuse 0.3 texture t.pgm\nmaterial black diffuse 0\nobject floor_\n" +
                  std::string("quad tiles 0 0 0  4 0 0  4 3 0  0 3 0  patches 4 3 sub 2 2\nobject over\n") +
                  facing("-z", "black", {0, 0, 0.8}, {4, 3, 0.8}, "patches 6 8 sub 1 1"),
-             4096, [](const Vec3&, std::uint32_t m) { return m == 0 ? 1000.0 : 0; }, {{"t.pgm", picture}});
+             16384, [](const Vec3&, std::uint32_t m) { return m == 0 ? 1000.0 : 0; }, {{"t.pgm", picture}});
   ASSERT_TRUE(g.gather().done());
   const Unhidden expected(g, [&](const Mesh& mesh, std::uint32_t patch, std::uint32_t) {
     return mesh.nu == 4 ? 0.3 * linear(texels[2 - patch / 4][patch % 4]) / mean : 0.0;

@@ -1,4 +1,4 @@
-// What sub-patches gather: the mean over rays, whole rooms of it.
+// What sub-patches gather: the mean over lines, whole rooms of it.
 #include "ambient/gather.h"
 
 #include <cmath>
@@ -9,7 +9,7 @@ namespace shodo {
 namespace {
 
 
-/// Every ray meets the same value: what is lost is the last of the 12 digits of what is sent (ambient/sent_light.h),
+/// Every line brings the same value: what is lost is the last of the 12 digits of what is sent (ambient/sent_light.h),
 /// and that again of what was gathered before.
 TEST(Gather, FurnaceGivesE0RhoOverOneMinusRhoOnEverySubPatch) {
   for (const double rho : {0.3, 0.8}) {
@@ -21,20 +21,33 @@ TEST(Gather, FurnaceGivesE0RhoOverOneMinusRhoOnEverySubPatch) {
   }
 }
 
-/// CIE 171 5.6, the values of references.md: one reflection, an open room; squares of 2 cm where the table has a value.
-/// The error of 65536 rays is some N^-0.75 = 2.4e-4 of a hemisphere of floor, 100 here; twice that is allowed.
+/// CIE 171 5.6, the values of references.md: one reflection, an open room. Around each point of the table the mean over
+/// squares of 20 cm, which differs from the point's value by less than 0.02; 25 sub-patches of 4 cm have 1e5 lines
+/// there, whose error is some N^-0.5 of a hemisphere of floor, 100 here.
 TEST(Gather, OneReflectionFromAFloorMatchesCie171Case56) {
   const double z[] = {.75, 1.25, 1.75, 2.25, 2.75}, wall[] = {35.901, 27.992, 21.639, 16.716, 12.967};
   const double y[] = {.25, .75, 1.25, 1.75}, ceiling[] = {26.795, 30.939, 33.976, 35.567};
-  std::string text = black_and_white() + "object floor_\n" + facing("+z", "white", {0, 0, 0}, {4, 4, 0});
-  text += "object wall\n";
-  for (const double at : z) text += facing("+y", "black", {1.99, 0, at - 0.01}, {2.01, 0, at + 0.01});
-  text += "object ceiling_\n";
-  for (const double at : y) text += facing("-z", "black", {1.99, at - 0.01, 3}, {2.01, at + 0.01, 3});
+  const std::string text = black_and_white() + "object floor_\n" + facing("+z", "white", {0, 0, 0}, {4, 4, 0}) +
+                           "object wall\n" + facing("+y", "black", {1.9, 0, 0}, {2.1, 0, 3}, "patches 75 5 sub 1 1") +
+                           "object ceiling_\n" +
+                           facing("-z", "black", {1.9, 0, 3}, {2.1, 4, 3}, "patches 100 5 sub 1 1");
   Gathered room(text, 65536, [](const Vec3&, std::uint32_t m) { return m == 0 ? 1000.0 : 0; });
   ASSERT_TRUE(room.gather().done());
-  for (std::uint32_t k = 0; k < 5; ++k) EXPECT_NEAR(room.gathered(1 + k, 0) / 5, wall[k], 0.05) << z[k];
-  for (std::uint32_t k = 0; k < 4; ++k) EXPECT_NEAR(room.gathered(6 + k, 0) / 5, ceiling[k], 0.05) << y[k];
+  const auto around = [&](std::uint32_t m, const Vec3& at) {
+    const Scene& s = room.scene.loaded.scene;
+    double sum = 0;
+    int count = 0;
+    for (std::uint32_t k = 0; k < s.meshes[m].sub_patch_count(); ++k) {
+      const Vec3 off = sub_patch_piece(s, s.meshes[m], k).centre() + s.origin - at;
+      if (magnitude(off.y) + magnitude(off.z) > 0.1) continue;
+      sum += room.gathered(m, k);
+      ++count;
+    }
+    EXPECT_EQ(count, 25);
+    return sum / count;
+  };
+  for (int k = 0; k < 5; ++k) EXPECT_NEAR(around(1, {2, 0, z[k]}) / 5, wall[k], 0.3) << z[k];
+  for (int k = 0; k < 4; ++k) EXPECT_NEAR(around(2, {2, y[k], 3}) / 5, ceiling[k], 0.3) << y[k];
 }
 
 /// A room with a table-like slab and a bright spot on the floor.
@@ -70,41 +83,38 @@ double slow_factor(const Gathered& g, const Vec3& from, const Vec3& normal, cons
   return all > 0 && in_front ? seen / all * filled(from, normal, piece) : seen;
 }
 
-/// From 4 x 4 places of a sub-patch, everything in the file's order. Meshes before it have gathered, those after it
-/// haven't.
-double slowly_gathered(const Gathered& before, const Gathered& after, std::uint32_t m, std::uint32_t local,
-                       Intersector& intersector) {
-  const Scene& s = before.scene.loaded.scene;
+/// From 4 x 4 places of a sub-patch, of what all others send when they have gathered.
+double slowly_gathered(const Gathered& after, std::uint32_t m, std::uint32_t local, Intersector& intersector) {
+  const Scene& s = after.scene.loaded.scene;
   const Piece own = sub_patch_piece(s, s.meshes[m], local);
   const Vec3 normal = normalised(own.vector_area());
   double sum = 0;
   for (int a = 0; a < 16; ++a) {
     const Vec3 from = own.point((a % 4 + 0.5) / 4, (a / 4 + 0.5) / 4);
-    const LatticePoint start = sample_point(s, before.scene.geometry, m, 0, from);
+    const LatticePoint start = sample_point(s, after.scene.geometry, m, 0, from);
     for (std::uint32_t other = 0; other < s.meshes.size(); ++other) {
       const Mesh& mesh = s.meshes[other];
       for (std::uint32_t k = 0; other != m && k < mesh.sub_patch_count(); ++k) {
         const double sends = s.materials[mesh.material].diffuse.c[0] *
-                             (static_cast<double>(before.direct[mesh.first_sub_patch + k]) +
-                              (other < m ? after : before).gathered(other, k));
+                             (static_cast<double>(after.direct[mesh.first_sub_patch + k]) + after.gathered(other, k));
         const Piece piece = sub_patch_piece(s, mesh, k);
-        sum += sends * slow_factor(before, from, normal, start, other, piece, intersector);
+        sum += sends * slow_factor(after, from, normal, start, other, piece, intersector);
       }
     }
   }
   return sum / 16;
 }
 
-/// Root mean square, of the mean illuminance; 4096 rays leave 0.003 (measured).
+/// Root mean square, of the mean illuminance; 16384 lines leave 0.004 (measured).
 TEST(Gather, AgreesWithAGatherOverEverything) {
-  Gathered room(furnished(0.6), 4096, spot), again(furnished(0.6), 4096, spot);
-  ASSERT_TRUE(again.gather().done());
+  Gathered room(furnished(0.6), 16384, spot);
+  ASSERT_TRUE(room.gather().done());
   Intersector off(room.scene.geometry);
   const Scene& s = room.scene.loaded.scene;
   double square = 0, count = 0, mean = 0;
   for (std::uint32_t m = 0; m < s.meshes.size(); ++m) {
     for (std::uint32_t k = 0; k < s.meshes[m].sub_patch_count(); k += 47, ++count) {
-      const double slow = slowly_gathered(room, again, m, k, off), fast = again.gathered(m, k);
+      const double slow = slowly_gathered(room, m, k, off), fast = room.gathered(m, k);
       square += (slow - fast) * (slow - fast);
       mean += slow + static_cast<double>(room.direct[s.meshes[m].first_sub_patch + k]);
     }
@@ -114,16 +124,16 @@ TEST(Gather, AgreesWithAGatherOverEverything) {
 }
 
 /// Of all sub-patches of black walls and a black ceiling over a floor with a bright spot, against contour integrals:
-/// root mean square, of the mean. Four times the rays leave half of it at most (N^-0.6 would leave 0.44), and at 4096
-/// nothing stays that they can't remove (measured: 0.184, 0.075, 0.037, 0.014).
-TEST(Gather, TheErrorFallsAsRaysGrow) {
+/// root mean square, of the mean. Four times the lines leave half of it (N^-0.5; 0.6 is allowed), and at 16384
+/// nothing stays that they can't remove (measured: 0.145, 0.079, 0.035, 0.018).
+TEST(Gather, TheErrorFallsAsLinesGrow) {
   std::string text = black_and_white() + with_sub_patches(box_walls(4, 3, 2.5, 8, 6, 5, "black"), "2 2");
   text.replace(text.find("quad black"), 10, "quad white");
   text.replace(text.find("sub 2 2"), 7, "sub 1 1");
   std::vector<double> expected;
   double last = 1, mean = 0;
-  for (const std::uint32_t rays : {64u, 256u, 1024u, 4096u}) {
-    Gathered room(text, rays, spot);
+  for (const std::uint32_t lines : {256u, 1024u, 4096u, 16384u}) {
+    Gathered room(text, lines, spot);
     ASSERT_TRUE(room.gather().done());
     const Scene& s = room.scene.loaded.scene;
     const Unhidden unhidden(room);
@@ -139,15 +149,15 @@ TEST(Gather, TheErrorFallsAsRaysGrow) {
       for (const double lx : expected) mean += lx / static_cast<double>(expected.size());
     }
     const double error = std::sqrt(square / static_cast<double>(at)) / mean;
-    EXPECT_LT(error, 0.6 * last) << rays;
+    EXPECT_LT(error, 0.6 * last) << lines;
     last = error;
   }
   EXPECT_LT(last, 0.02);
 }
 
-/// 1024 rays leave some 4 % (TheErrorFallsAsRaysGrow), which 262 patches with their own directions make 0.25 %.
+/// 16384 lines leave 0.2 % (measured).
 TEST(Gather, KeepsTheEnergyOfTheSolution) {
-  Gathered room(furnished(0.6), 1024, spot);
+  Gathered room(furnished(0.6), 16384, spot);
   std::vector<float> before = room.lx;
   ASSERT_TRUE(room.gather().done());
   const Scene& s = room.scene.loaded.scene;
@@ -159,30 +169,16 @@ TEST(Gather, KeepsTheEnergyOfTheSolution) {
       solved += area * static_cast<double>(before[mesh.first_sub_patch + k]);
     }
   }
-  EXPECT_NEAR(gathered, solved, 0.005 * solved);
+  EXPECT_NEAR(gathered, solved, 0.004 * solved);
 }
 
 /// A black floor of 5 x 5 patches a metre under one of 6 x 6 that are bright by turns.
-Gathered under_tiles(std::uint32_t rays, const std::string& counts = "patches 5 5 sub 1 1") {
+Gathered under_tiles(std::uint32_t lines, const std::string& counts = "patches 5 5 sub 1 1") {
   return Gathered(black_and_white() + "object floor_\n" + facing("+z", "black", {0, 0, 0}, {3, 3, 0}, counts) +
                       "object tiles\n" + facing("-z", "white", {0, 0, 1}, {3, 3, 1}, "patches 6 6 sub 1 1"),
-                  rays, [](const Vec3& p, std::uint32_t m) {
+                  lines, [](const Vec3& p, std::uint32_t m) {
                     return m == 1 && (static_cast<int>(2 * p.x) + static_cast<int>(2 * p.y)) % 2 == 0 ? 2000.0 : 0;
                   });
-}
-
-/// The sub-patches of a patch share their directions, so that 1024 rays leave about 3 % on all of them alike.
-TEST(Gather, MoreThanSixteenSubPatchesOfAPatchGather) {
-  for (const char* counts : {"patches 1 1 sub 4 4", "patches 1 1 sub 5 5", "patches 2 1 sub 3 11"}) {
-    Gathered floor = under_tiles(1024, counts);
-    const std::uint32_t count = floor.scene.loaded.scene.meshes[0].sub_patch_count();
-    std::fill(floor.lx.begin(), floor.lx.begin() + count, 0.0f);
-    ASSERT_TRUE(floor.gather().done());
-    const Unhidden expected(floor);
-    Errors errors;
-    for (std::uint32_t k = 0; k < count; ++k) errors.add(floor.gathered(0, k), expected(0, k));
-    EXPECT_LT(errors.worst(), 0.1) << counts;
-  }
 }
 
 /// What is brighter than a float counts as the largest.
@@ -199,14 +195,16 @@ TEST(Gather, LightAsLargeAsFloatsGoStaysANumber) {
   EXPECT_GT(most, 1e37f);
 }
 
-TEST(Gather, ZeroRaysAreTheDefault) {
-  Gathered none = under_tiles(0), same = under_tiles(kGatherRays), other = under_tiles(kGatherRays - 1);
+TEST(Gather, ZeroLinesAreTheDefault) {
+  Gathered none = under_tiles(0), same = under_tiles(kGatherLines), other = under_tiles(kGatherLines - 1);
+  const std::uint64_t before = none.scene.statistics.segments_ambient;
   for (Gathered* each : {&none, &same, &other}) ASSERT_TRUE(each->gather().done());
   EXPECT_EQ(none.lx, same.lx);
   EXPECT_NE(none.lx, other.lx);
-  // On average, but for a few rays where light doesn't vary: the tiles face a black floor.
-  const std::uint64_t rays = none.scene.statistics.segments_ambient, asked = kGatherRays * std::uint64_t{25 + 36};
-  EXPECT_NEAR(static_cast<double>(rays), static_cast<double>(asked), 0.1 * static_cast<double>(asked));
+  // On average, but for what borders do.
+  const std::uint64_t asked = kGatherLines * std::uint64_t{25 + 36};
+  const std::uint64_t lines = none.scene.statistics.segments_ambient - before;
+  EXPECT_NEAR(static_cast<double>(lines), static_cast<double>(asked), 0.01 * static_cast<double>(asked));
 }
 
 TEST(Gather, FlagsOffAndAutoGiveTheSameBits) {
@@ -222,7 +220,6 @@ TEST(Gather, FlagsOffAndAutoGiveTheSameBits) {
   ASSERT_TRUE(found.gather(FlagMode::kAuto).done());
   EXPECT_EQ(off.lx, found.lx);
   EXPECT_EQ(off.scene.statistics.segments_ambient, found.scene.statistics.segments_ambient);
-  EXPECT_GT(off.scene.statistics.tests_ambient, found.scene.statistics.tests_ambient);
 }
 
 TEST(Gather, BlackSurfacesReceiveAndHiddenSubPatchesKeepWhatTheyHave) {
@@ -239,12 +236,13 @@ TEST(Gather, BlackSurfacesReceiveAndHiddenSubPatchesKeepWhatTheyHave) {
 }
 
 /// A sheet beside a floor, between it and a part of the ceiling: what it shows, a lit back, or the front or the back of
-/// an area light, is as good as black. 16384 rays leave some N^-0.75 = 7e-4 of a lit hemisphere, 500; four times that
-/// is allowed.
+/// an area light, is as good as black. The floor has 5e4
+/// lines, which leave 1e-3 of a lit hemisphere, 500; three times that is allowed.
 TEST(Gather, BacksAndLightsAreMetAndSendNothing) {
   const auto lit_by = [](const std::string& sheet) {
     Gathered floor(black_and_white() + "object floor_\n" + facing("+z", "black", {0, 0, 0}, {2, 2, 0}) +
-                       "object ceiling_\n" + facing("-z", "white", {-40, -40, 2}, {42, 42, 2}) + sheet,
+                       "object ceiling_\n" +
+                       facing("-z", "white", {-10, -10, 2}, {12, 12, 2}, "patches 20 20 sub 1 1") + sheet,
                    16384, [](const Vec3&, std::uint32_t m) { return m > 0 ? 1000.0 : 0; });
     std::fill(floor.lx.begin(), floor.lx.end(), 0.0f);  // a white sheet lights the ceiling
     EXPECT_TRUE(floor.gather().done());
@@ -256,6 +254,20 @@ TEST(Gather, BacksAndLightsAreMetAndSendNothing) {
   const std::string light = "light l area quad 2.5 -9 -1  ", rest = "2.5 9 1.9  ", end = "luminance 500\n";
   EXPECT_NEAR(lit_by(light + "2.5 9 -1  " + rest + "2.5 -9 1.9  " + end), black, 1.4);
   EXPECT_NEAR(lit_by(light + "2.5 -9 1.9  " + rest + "2.5 9 -1  " + end), black, 1.4);
+}
+
+/// Lines lie as close as meshes need them, but a light that is far larger isn't swept by as many.
+TEST(Gather, ALightFarLargerThanTheMeshesDoesntTakeAllLines) {
+  Gathered small(black_and_white() + "object floor_\n" +
+                     facing("+z", "white", {0, 0, 0}, {0.1, 0.1, 0}, "patches 4 4 sub 1 1") + "object over\n" +
+                     facing("-z", "white", {0, 0, 0.1}, {0.1, 0.1, 0.1}, "patches 4 4 sub 1 1") +
+                     "light sky area quad -9 -9 5  -9 9 5  9 9 5  9 -9 5  luminance 100\n",
+                 64, [](const Vec3&, std::uint32_t) { return 100.0; });
+  const std::uint64_t before = small.scene.statistics.segments_ambient;
+  ASSERT_TRUE(small.gather().done());
+  const std::uint64_t pieces = small.scene.statistics.segments_ambient - before;
+  EXPECT_GT(pieces, 8u * 64 * 32);
+  EXPECT_LT(pieces, 20u * 64 * 32);
 }
 
 struct Asked {
@@ -276,11 +288,11 @@ struct Asked {
 
 TEST(Gather, StopsWhenItIsToldToAndAsksOften) {
   Asked all;
-  Gathered room(furnished(0.6), 4, spot);
+  Gathered room(furnished(0.6), 64, spot);
   ASSERT_TRUE(room.gather(FlagMode::kAuto, all.progress()).done());
   const std::vector<float> whole = room.lx;
-  EXPECT_EQ(all.total % room.scene.patches.size(), 0u);
-  EXPECT_GE(all.calls, room.scene.patches.size() / 16);
+  EXPECT_EQ(all.calls, all.total);
+  EXPECT_GE(all.calls, 32u);
   for (const std::uint64_t stop : {std::uint64_t{1}, all.calls / 2, all.calls - 1}) {
     room.start();
     Asked asked{.stop = stop};

@@ -12,8 +12,8 @@ namespace shodo {
 struct Gathered {
   using Light = std::function<double(const Vec3&, std::uint32_t mesh)>;
 
-  Gathered(const std::string& text, std::uint32_t rays, const Light& e0, TestFiles files = {})
-      : scene(text, precise(rays), std::move(files)) {
+  Gathered(const std::string& text, std::uint32_t lines, const Light& e0, TestFiles files = {})
+      : scene(text, precise(lines), std::move(files)) {
     scene.light(e0);
     EXPECT_TRUE(scene.solve().done());
     const Scene& s = scene.loaded.scene;
@@ -26,10 +26,10 @@ struct Gathered {
     memory.resize(1 << 20);
   }
 
-  static Options precise(std::uint32_t rays) {
+  static Options precise(std::uint32_t lines) {
     Options options;
     options.tolerance = 1e-10;
-    options.gather_rays = rays;
+    options.gather_lines = lines;
     return options;
   }
 
@@ -56,9 +56,16 @@ struct Gathered {
     EXPECT_TRUE(intersector.take_flags(arena));
     const std::size_t before = arena.used();
     const Status status = gather_illuminance(scene.loaded.scene, scene.geometry, scene.direct, intersector, options,
-                                             progress, arena, lx, scene.statistics);
+                                             progress, arena, room(), lx, scene.statistics);
     EXPECT_EQ(arena.used(), before);
     return status;
+  }
+
+  /// Once for each gather, since values of patches may be lost.
+  GatherRoom room() {
+    patches_ambient = std::vector<double>(scene.ambient.patch_lx.size());
+    patches_direct = patches_ambient;
+    return {patches_ambient, patches_direct};
   }
 
   double gathered(std::uint32_t m, std::uint32_t local, std::uint32_t c = 0) const {
@@ -75,6 +82,7 @@ struct Gathered {
 
   AmbientScene scene;
   std::vector<float> direct, lx;
+  std::vector<double> patches_ambient, patches_direct;
   std::vector<std::uint8_t> hidden;
   std::vector<std::uint64_t> memory;
 };

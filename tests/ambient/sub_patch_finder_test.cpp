@@ -78,6 +78,83 @@ struct Finding : HandMadeScene {
     EXPECT_GT(asked, 0u);
   }
 
+  LatticePoint inside(const PolygonTriangles& polygon, Random& random, double inset) const {
+    const Triangle& t = geometry.triangles[polygon.first + random.below(polygon.count)];
+    double s = random.unit(), r = random.unit();
+    if (s + r > 1) s = 1 - s, r = 1 - r;
+    s = inset + (1 - 3 * inset) * s;
+    r = inset + (1 - 3 * inset) * r;
+    const Vec3 off = s * vector_of(t.b - t.a) + r * vector_of(t.c - t.a);
+    const auto moved = [](std::int32_t from, double by) { return from + static_cast<std::int32_t>(std::lround(by)); };
+    return {moved(t.a.x, off.x), moved(t.a.y, off.y), moved(t.a.z, off.z)};
+  }
+
+  /// How far a point is from the nearest border of a parallelogram, of its sides; negative outside.
+  static double from_border(const Piece& piece, const Vec3& point) {
+    double least = 1;
+    for (int k = 0; k < 4; ++k) {
+      const Vec3 &a = piece.corner[k], &b = piece.corner[(k + 1) % 4], &c = piece.corner[(k + 2) % 4];
+      least = std::min(least, length(cross(b - a, point - a)) / length(cross(b - a, c - a)) *
+                                  (dot(cross(b - a, point - a), cross(b - a, c - a)) < 0 ? -1 : 1));
+    }
+    return least;
+  }
+
+  /// Points along lines across each cell of a mesh, at most so many a line, are found one after the other.
+  void expect_walks(std::uint32_t m, std::uint32_t most = 1024, int lines = 60) {
+    const Mesh& mesh = scene.meshes[m];
+    const bool whole = mesh.sub_patch_count() == cell_count(mesh);
+    std::size_t compared = 0, near = 0;
+    Random random(m + 1);
+    for (std::uint32_t cell = 0; cell < cell_count(mesh); ++cell) {
+      const PolygonTriangles& polygon = geometry.cells[geometry.first_cell[m] + cell];
+      for (int line = 0; line < lines && polygon.count > 0; ++line) {
+        const double inset = whole ? 0.01 : 0;
+        const LatticePoint from = inside(polygon, random, inset), to = inside(polygon, random, inset);
+        const std::uint32_t triangle = polygon.first + random.below(polygon.count), count = 2 + random.below(most - 1);
+        const auto part = [&](std::int64_t off) { return static_cast<std::int32_t>(off * 1024 / (count - 1)); };
+        const LatticeVector off = to - from;
+        const LatticePoint way{part(off.x), part(off.y), part(off.z)};
+        SubPatchFinder::Walk walk;
+        ASSERT_TRUE(finder.start(triangle, from, way, walk));
+        for (std::uint32_t k = 0; k < count; ++k) {
+          const auto at = [&](std::int32_t start, std::int32_t step) {
+            return start + static_cast<std::int32_t>(std::lround(k * (step / 1024.0)));
+          };
+          const LatticePoint point{at(from.x, way.x), at(from.y, way.y), at(from.z, way.z)};
+          const SubPatchFinder::Found found = finder.find(triangle, point);
+          const std::uint32_t walked = walk.next();
+          if (!whole) {
+            // A place grows by a step that is right to 2^-16 of a sub-patch, up to 1024 times: 1.6 %.
+            const Piece piece = sub_patch_piece(scene, mesh, found.sub_patch);
+            const double off_border = from_border(piece, scene_point(geometry.lattice, point));
+            ASSERT_GT(off_border, -0.02);
+            if (off_border < 0.02) {
+              ++near;
+              continue;
+            }
+          }
+          ASSERT_EQ(walked, mesh.first_sub_patch + found.sub_patch) << "mesh " << m << ", point " << k;
+          ++compared;
+        }
+      }
+    }
+    EXPECT_GT(compared, 5 * near);
+    EXPECT_GT(compared, 100u);
+  }
+
+  /// Map coordinates aren't linear there.
+  void expect_no_walks(std::uint32_t m) {
+    Random random(m);
+    for (std::uint32_t cell = 0; cell < cell_count(scene.meshes[m]); ++cell) {
+      const PolygonTriangles& polygon = geometry.cells[geometry.first_cell[m] + cell];
+      for (std::uint32_t t = 0; t < polygon.count; ++t) {
+        SubPatchFinder::Walk walk;
+        EXPECT_FALSE(finder.start(polygon.first + t, inside(polygon, random, 0.1), {1, 2, 3}, walk)) << "mesh " << m;
+      }
+    }
+  }
+
   SubPatchFinder finder;
 };
 
@@ -166,6 +243,101 @@ TEST(SubPatchFinder, FindsThroughTrianglesOfInsertedVertices) {
   EXPECT_GE(scene.geometry.cells[scene.geometry.first_cell[crooked]].count, 8u);
   scene.expect_all_found(wide);
   scene.expect_all_found(crooked);
+}
+
+TEST(SubPatchFinder, WalksOverParallelograms) {
+  Finding scene;
+  const std::uint32_t flat = scene.quad({0, 0, 0}, {6, 0, 0}, {6, 4, 0}, {0, 4, 0}, 3, 2, 2, 3);
+  const std::uint32_t tilted = scene.quad({1, 5, 1}, {4, 6, 3}, {3, 9, 4}, {0, 8, 2}, 2, 3, 3, 1);
+  const std::uint32_t upside_down = scene.quad({0, 4, 7}, {6, 4, 7}, {6, 0, 7}, {0, 0, 7}, 1, 5, 4, 2);
+  const std::uint32_t strip = scene.quad({7, 0, 0}, {7, 0.1, 0}, {7, 0.1, 8}, {7, 0, 8}, 1, 40, 1, 3);
+  const std::uint32_t sheared = scene.quad({0, 10, 0}, {3, 10, 0}, {7, 12, 1}, {4, 12, 1}, 3, 3, 2, 2);
+  scene.start();
+  for (const std::uint32_t m : {flat, tilted, upside_down, strip, sheared}) scene.expect_walks(m);
+}
+
+/// Cells are rectangles of several sizes, sheared, and turned in space.
+TEST(SubPatchFinder, WalksOverGridsOfParallelograms) {
+  Finding scene;
+  const std::uint32_t even = scene.grid(3, 4, {{0, 0, 0}, {2, 0, 0}, {5, 0, 0}, {0, 1, 1}, {2, 1, 1}, {5, 1, 1},
+                                               {0, 3, 1}, {2, 3, 1}, {5, 3, 1}, {0, 4, 3}, {2, 4, 3}, {5, 4, 3}},
+                                        2, 1, 2, 3);
+  const std::uint32_t sheared = scene.grid(2, 3, {{0, 6, 0}, {3, 6, 1}, {1, 8, 1}, {4, 8, 2}, {1, 9, 4}, {4, 9, 5}},
+                                           3, 2, 1, 2);
+  scene.start();
+  scene.expect_walks(even);
+  scene.expect_walks(sheared);
+}
+
+/// A cell that is one sub-patch may have any shape.
+TEST(SubPatchFinder, WalksOverCellsOfOneSubPatch) {
+  Finding scene;
+  scene.quad({0, 0, 0}, {8, 0, 0}, {5, 4, 0}, {3, 4, 0});
+  scene.quad({0, 10, 0}, {4, 10, 0}, {4, 14, 0.4}, {0, 14, 0});
+  scene.triangle({0, 14, 5}, {3, 20, 1}, {9, 15, 2});
+  scene.mesh(scene.quad({10, 0, 0}, {16, 0, 0}, {12, 2, 0}, {10, 6, 0})).cut = true;
+  scene.grid(3, 3, {{7, 10, 0}, {8, 10, 0}, {10, 10, 0}, {7, 12, 0}, {8, 13, 0}, {10, 12, 1}, {6, 16, 0}, {8, 15, 1},
+                    {11, 16, 2}});
+  scene.start();
+  for (std::uint32_t m = 0; m < 5; ++m) scene.expect_walks(m);
+}
+
+TEST(SubPatchFinder, WalksNowhereElse) {
+  Finding scene;
+  scene.quad({0, 0, 0}, {8, 0, 0}, {5, 4, 0}, {3, 4, 0}, 4, 2, 2, 3);
+  scene.quad({0, 10, 0}, {4, 10, 0}, {4, 14, 0.4}, {0, 14, 0}, 1, 2);
+  scene.triangle({0, 14, 5}, {3, 20, 1}, {9, 15, 2}, 2, 1);
+  scene.triangle({10, 0, 0}, {10, 5, 1}, {10, 2, 8}, 1, 3);
+  scene.mesh(scene.quad({12, 0, 0}, {18, 0, 0}, {14, 2, 0}, {12, 6, 0}, 2, 2)).cut = true;
+  scene.grid(3, 2, {{7, 10, 0}, {8, 10, 0}, {10, 10, 0}, {7, 12, 0}, {8, 13, 0}, {10, 12, 0}}, 1, 2);
+  // More columns than a place in a walk can count.
+  scene.quad({0, 0, 9}, {9, 0, 9}, {9, 4, 9}, {0, 4, 9}, 16385, 1);
+  const std::uint32_t light = scene.area_light({0, 0, 3}, {0, 2, 3}, {2, 2, 3}, {2, 0, 3});
+  scene.start();
+  for (std::uint32_t m = 0; m < 7; ++m) scene.expect_no_walks(m);
+  const PolygonTriangles& polygon = scene.geometry.light_triangles[light];
+  SubPatchFinder::Walk walk;
+  EXPECT_FALSE(scene.finder.start(polygon.first, scene.geometry.triangles[polygon.first].a, {1, 2, 3}, walk));
+}
+
+/// 75 steps of the lattice a sub-patch, so that rounding a point moves it by up to 1 % of one: fewer points.
+TEST(SubPatchFinder, WalksOverASmallMeshInALargeScene) {
+  Finding scene;
+  scene.quad({0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0});
+  const std::uint32_t small = scene.quad({9, 9, 1}, {9.01, 9, 1}, {9.01, 9, 1.01}, {9, 9, 1.01}, 2, 2, 2, 2);
+  scene.start();
+  scene.expect_walks(small, 40, 200);
+}
+
+/// A line that is the only one to cross a polygon: where the next would is anywhere.
+TEST(SubPatchFinder, WalksToOnePointWhateverTheWay) {
+  Finding scene;
+  scene.quad({0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0});
+  const std::uint32_t small = scene.quad({9, 9, 1}, {9.1, 9, 1}, {9.1, 9, 1.1}, {9, 9, 1.1}, 3000, 2);
+  scene.start();
+  const std::uint32_t triangle = scene.geometry.cells[scene.geometry.first_cell[small]].first;
+  const Triangle& t = scene.geometry.triangles[triangle];
+  Random random(3);
+  for (int k = 0; k < 2000; ++k) {
+    const auto part = [&] { return static_cast<std::int32_t>(random.signed_unit() * (1 << (10 + random.below(21)))); };
+    const LatticePoint way{part(), part(), part()};
+    const LatticePoint& at = k % 3 == 0 ? t.a : k % 3 == 1 ? t.b : t.c;
+    SubPatchFinder::Walk walk;
+    ASSERT_TRUE(scene.finder.start(triangle, at, way, walk));
+    ASSERT_EQ(walk.next(), scene.scene.meshes[small].first_sub_patch + scene.finder.find(triangle, at).sub_patch);
+  }
+}
+
+TEST(SubPatchFinder, WalksOverTrianglesOfInsertedVertices) {
+  Finding scene;
+  const std::uint32_t wide = scene.quad({0, 0, 0}, {9, 0, 0}, {9, 4, 0}, {0, 4, 0}, 3, 2, 2, 2);
+  for (int k = 0; k < 3; ++k) {
+    const double x = 1 + 2 * k;
+    scene.quad({x, 4, 0}, {x + 1, 4, 0}, {x + 1, 4, 3}, {x, 4, 3});
+  }
+  scene.start();
+  EXPECT_GE(scene.geometry.cells[scene.geometry.first_cell[wide]].count, 8u);
+  scene.expect_walks(wide);
 }
 
 TEST(SubPatchFinder, AnAreaLightHasNone) {

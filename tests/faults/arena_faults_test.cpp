@@ -38,7 +38,7 @@ struct Attempt {
     options.rules = c.rules;
     options.flags = c.flags;
     options.gather = c.gather;
-    options.gather_rays = 4;
+    options.gather_lines = 4;
     options.width = 16;
     options.height = 12;
     options.antialias = 1;

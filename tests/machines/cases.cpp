@@ -48,7 +48,7 @@ void gather(Options& o) {
   shapes(o);
   o.rules.blocks = true;
   o.gather = true;
-  o.gather_rays = 64;
+  o.gather_lines = 64;
 }
 
 void room(Options& o) {

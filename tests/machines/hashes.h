@@ -23,7 +23,7 @@ inline constexpr Hashes kHashes[] = {
     {"planes", 0xb736224681ec12bc, 0x69f4c7a50455a704},
     {"textures", 0xcbdb3cfe3740623d, 0x5804eee79f24b372},
     {"glass", 0x0634c812b8d70bc2, 0xea9b963b2f0b549d},
-    {"gather", 0xd837d732cfb5d61a, 0x9e6284ebbdf6a6f3},
+    {"gather", 0x0e2a49a9b3c1d6e0, 0x9eabc07fd9038df0},
     {"day", 0xe5bc50aa318d99e2, 0xb40799436aa72a20},
 };
 

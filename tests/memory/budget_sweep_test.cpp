@@ -32,7 +32,7 @@ struct Sweep {
     options.rules = rules;
     options.gather = gather;
     options.mirror_light = mirror_light;
-    options.gather_rays = 4;
+    options.gather_lines = 4;
     options.width = 32;
     options.height = 24;
     options.segments_first = 1;  // hundreds of runs

@@ -134,7 +134,7 @@ TEST(PatchReflectance, ATexturedFloorLightsARoomAsTwoFloorsOfItsMeans) {
     options.rules.blocks = which == 1 || which == 2;
     options.rules.blocks_error = 1e-5;
     options.gather = which == 2;
-    options.gather_rays = 4096;
+    options.gather_lines = 4096;
     options.mirror_light = which == 3;
     options.tolerance = 1e-9;
     options.row_value_bits = 64;
