@@ -43,9 +43,8 @@ class Gather {
       : scene_(scene), geometry_(geometry), direct_(direct), memory_(memory) {}
 
   void start();
-  /// False: the arena is too small, or the progress callback asked to stop.
-  bool shoot(std::uint32_t lines, const Progress& progress, Arena& arena, Arena& for_cuts, Statistics& statistics,
-             bool& stopped);
+  /// Errors: kMemory, kInterrupted.
+  Status shoot(std::uint32_t lines, const Progress& progress, Arena& arena, Arena& for_cuts, Statistics& statistics);
   /// With an intersector that has started.
   void finish(Intersector& intersector);
 
@@ -267,20 +266,19 @@ double Gather::spacing_of(double lines) const {
   return spacing > least ? spacing : least;
 }
 
-bool Gather::shoot(std::uint32_t lines, const Progress& progress, Arena& arena, Arena& for_cuts, Statistics& statistics,
-                   bool& stopped) {
+Status Gather::shoot(std::uint32_t lines, const Progress& progress, Arena& arena, Arena& for_cuts,
+                     Statistics& statistics) {
   const ArenaScratch release(arena);
-  if (scene_.sub_patch_count == 0) return true;
-  if (!lines_.take(geometry_, arena, for_cuts)) return false;
-  if (!arena.take("surfaces along a line", lines_.polygons(), surfaces_)) return false;
+  if (scene_.sub_patch_count == 0) return {};
+  if (!lines_.take(geometry_, arena, for_cuts) ||
+      !arena.take("surfaces along a line", lines_.polygons(), surfaces_)) {
+    return arena.refused();
+  }
   std::uint32_t count = 1;  // a power of two, nearest to so many
   while (static_cast<double>(count) * count * 2 <= kBundles * kBundles * lines) count *= 2;
   const double spacing = spacing_of(static_cast<double>(lines) / count);
   for (std::uint32_t k = 0; k < count; ++k) {
-    if (!progress.go_on(Stage::kSolution, k, count)) {
-      stopped = true;
-      return false;
-    }
+    if (!progress.go_on(Stage::kSolution, k, count)) return interrupted();
     for (std::uint32_t update = 1; update <= kUpdates; ++update) {
       if (k > 0 && k == count >> update) send_anew();
     }
@@ -288,7 +286,7 @@ bool Gather::shoot(std::uint32_t lines, const Progress& progress, Arena& arena, 
   }
   statistics.segments_ambient += pieces_;
   statistics.tests_ambient += lines_.tests();
-  return true;
+  return {};
 }
 
 /// Of a sub-patch that stands partly inside or under something the lines of the visible part count; if none is seen,
@@ -353,10 +351,7 @@ Status gather_illuminance(const Scene& scene, const Geometry& geometry, const Di
   const std::uint32_t lines = asked < kMostGatherLines ? asked : kMostGatherLines;
   Gather gather(scene, geometry, direct, memory);
   gather.start();
-  bool stopped = false;
-  if (!gather.shoot(lines, progress, arena, for_cuts, statistics, stopped)) {
-    return stopped ? interrupted() : arena.refused();
-  }
+  if (const Status status = gather.shoot(lines, progress, arena, for_cuts, statistics); !status.done()) return status;
   const IntersectorScratch seeking(intersector);
   if (!intersector.start(arena, Rectangles::kWhole)) return arena.refused();
   gather.finish(intersector);

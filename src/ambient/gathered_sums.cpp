@@ -51,13 +51,11 @@ void GatheredSums::start(std::uint32_t sub_patch, std::uint32_t lines, double un
 
 void GatheredSums::halve(std::uint32_t sub_patch) {
   for (std::uint32_t c = 0; c < channels_; ++c) words_[std::size_t{sub_patch} * channels_ + c] >>= 1;
-  ++scale_[sub_patch];
 }
 
 bool GatheredSums::forget_half(std::uint32_t sub_patch) {
   if (!started(sub_patch) || sees_backs(sub_patch)) return false;
   halve(sub_patch);
-  --scale_[sub_patch];
   lines_[sub_patch] /= 2;
   backs_[sub_patch] /= 2;
   return true;

@@ -42,9 +42,7 @@ class GatheredSums {
     return true;
   }
   /// It brings nothing but a back: something may stand over the sub-patch.
-  void count_back(std::uint32_t sub_patch) {
-    ++backs_[sub_patch];
-  }
+  void count_back(std::uint32_t sub_patch) { ++backs_[sub_patch]; }
   /// It brings light, units(c) units of channel c.
   template <std::uint32_t kChannels, class Units>
   void add(std::uint32_t sub_patch, Units units) {
@@ -55,7 +53,9 @@ class GatheredSums {
       sum[c] += units(c) >> scale;
       all |= sum[c];
     }
-    if (all >> 31 != 0) halve(sub_patch);
+    if (all >> 31 == 0) return;
+    halve(sub_patch);
+    ++scale_[sub_patch];
   }
 
   /// With those that start() counted; and those of them that aren't known to have brought a back.

@@ -79,8 +79,6 @@ struct Moments {
   }
 };
 
-std::int32_t component(const LatticePoint& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
-
 /// Bit k: all cached samples of the mesh have the same coordinate along axis k.
 std::uint8_t flat_axes(const Surfaces& s, std::uint32_t k) {
   LatticeBox box;

@@ -19,6 +19,8 @@ struct LatticePoint {
   constexpr bool operator==(const LatticePoint&) const = default;
 };
 
+constexpr std::int32_t component(const LatticePoint& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+
 /// A difference of points, or a direction; components within +-2^20, of normals within +-2^41.
 struct LatticeVector {
   std::int64_t x = 0, y = 0, z = 0;

@@ -80,10 +80,6 @@ class LineBundle {
     std::uint16_t corners;
     std::uint16_t flat;  // the axis to which it is square, 3: none
   };
-  /// Along the direction, in 2^-kUnitBits of a step.
-  struct Seen {
-    std::int32_t y, z;
-  };
   /// Of a polygon, from its lowest corner to its highest: where rows cut it.
   struct Edge {
     std::int32_t y, step;                 // rounded up; from row to row
@@ -114,10 +110,10 @@ class LineBundle {
 
   template <class Corner, class Take>
   static void for_outlines(const Geometry& geometry, Corner corner, Take take);
-  std::int32_t component(const LatticePoint& p, int k) const { return k == 0 ? p.x : k == 1 ? p.y : p.z; }
   const LatticePoint& corner(const Outline& outline, std::uint32_t k) const;
+  /// Along the direction, in 2^-kUnitBits of a step.
   std::int32_t seen(const LatticePoint& p, int axis, std::int32_t slope) const {
-    return (component(p, axis) * (1 << kUnitBits)) - component(p, axis_) * slope;
+    return component(p, axis) * (1 << kUnitBits) - component(p, axis_) * slope;
   }
   /// The least whole number not below a / b; b above 0.
   static std::int32_t ceiling(std::int32_t a, std::int32_t b) {
