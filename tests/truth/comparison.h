@@ -1,5 +1,6 @@
 // How far a map is from the truth, which is known as two independent estimates a and b of each sub-patch: the mean of
-// (x - a)(x - b) is that of (x - truth)^2, whatever the noise. doc/report.md has the measures.
+// (x - a)(x - b) is that of (x - truth)^2, whatever the noise; so is that of (x - a)(y - b), where x and y are two
+// estimates themselves. doc/report.md has the measures.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +18,7 @@ namespace shodo::truth {
 /// Mesh, v, u; u of a triangle's sub-patch as tables count it: 2 u, and 1 more for one that stands on its tip.
 using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;
 
-/// Both kinds of light, by channel. Of a truth there are two estimates, of a map one.
+/// Both kinds of light, by channel. Of a truth there are two estimates, of a map twice the same.
 struct Row {
   std::string object;
   bool triangle = false;
@@ -48,6 +49,10 @@ inline double number(const std::string& text) { return std::strtod(text.c_str(),
 inline std::uint32_t count(const std::string& text) {
   return static_cast<std::uint32_t>(std::strtoul(text.c_str(), nullptr, 10));
 }
+
+inline constexpr const char* kTruthHead =
+    "object,mesh,u,v,kind,area,visible_area,ambient_a_r,ambient_a_g,ambient_a_b,ambient_b_r,ambient_b_g,ambient_b_b,"
+    "direct_a_r,direct_a_g,direct_a_b,direct_b_r,direct_b_g,direct_b_b";
 
 inline Table read_truth(const std::string& text) {
   Table table;
@@ -92,11 +97,17 @@ inline Table read_map(const std::string& text, const Table& truth, std::uint32_t
   });
   for (auto& [key, row] : table) {
     for (std::size_t c = 0; c < 3 && row.seen_area > 0; ++c) {
-      row.direct[0][c] /= row.seen_area;
-      row.ambient[0][c] /= row.seen_area;
+      row.direct[0][c] = row.direct[1][c] = row.direct[0][c] / row.seen_area;
+      row.ambient[0][c] = row.ambient[1][c] = row.ambient[0][c] / row.seen_area;
     }
   }
   return table;
+}
+
+/// A truth's or a map's.
+inline Table read_light(const std::string& text, const Table& truth, std::uint32_t factor) {
+  const bool traced = text.compare(0, text.find('\n'), kTruthHead) == 0;
+  return traced ? read_truth(text) : read_map(text, truth, factor);
 }
 
 /// One sub-patch compared.
@@ -104,8 +115,8 @@ struct Compared {
   Key key;
   std::string object;
   double area = 0;
-  double square = 0;    // mean over channels of (x - a)(x - b)
-  double off = 0;       // mean over channels of x - (a + b) / 2
+  double square = 0;    // mean over channels of (x - a)(y - b)
+  double off = 0;       // mean over channels of (x + y) / 2 - (a + b) / 2
   double apparent = 0;  // root mean square of it
   double noise = 0;     // variance of the square
   double truth = 0, map = 0, doubt = 0;  // means over channels; doubt: half of |a - b|
@@ -116,17 +127,18 @@ inline Compared compared(const Key& key, const Row& row, const Lux& truth, const
   Compared one{key, row.object, row.seen_area};
   double spread = 0;
   for (std::size_t c = 0; c < 3; ++c) {
-    const double a = truth[0][c], b = truth[1][c], x = map[0][c], middle = 0.5 * (a + b);
-    one.square += (x - a) * (x - b) / 3;
-    one.off += (x - middle) / 3;
-    one.apparent += (x - middle) * (x - middle) / 3;
-    spread += (a - b) * (a - b) / 3;
-    one.truth += middle / 3;
-    one.map += x / 3;
+    const double p = map[0][c] - truth[0][c], q = map[1][c] - truth[1][c];
+    const double a = truth[0][c], b = truth[1][c];
+    one.square += p * q / 3;
+    one.off += 0.5 * (p + q) / 3;
+    one.apparent += 0.25 * (p + q) * (p + q) / 3;
+    spread += (p - q) * (p - q) / 3;
+    one.truth += 0.5 * (a + b) / 3;
+    one.map += 0.5 * (map[0][c] + map[1][c]) / 3;
     one.doubt += 0.5 * (a - b) / 3;
   }
   one.apparent = std::sqrt(one.apparent);
-  // Of a and b each the variance is s2 = (a - b)^2 / 2: that of the product is 2 e^2 s2 + s2^2, and (a - b)^4 has the
+  // Of each factor the variance is s2 = (p - q)^2 / 2: that of the product is 2 e^2 s2 + s2^2, and (p - q)^4 has the
   // mean 12 s2^2.
   one.noise = spread * std::max(0.0, one.square) + spread * spread / 12;
   one.doubt = std::abs(one.doubt);

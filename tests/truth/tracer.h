@@ -15,9 +15,11 @@
 // front in at most half of the directions, while outside of it no back is seen at all. A third leaves room for both.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "truth/lamps.h"
@@ -42,13 +44,21 @@ class Tracer {
 
   const World& world() const { return world_; }
 
+  /// Paths end where they meet something first: each sub-patch is one value there, lux by number and channel; `lit`:
+  /// and has its direct light besides, as it is where it is met. What they find is what the best of gathers would.
+  using Senders = std::vector<std::array<double, 3>>;
+  void end_at(Senders senders, bool lit) {
+    senders_ = std::move(senders);
+    lit_ = lit;
+  }
+
   /// `paths`: of each half.
   Truth sub_patch(std::uint32_t m, std::uint32_t local, std::uint32_t paths) const {
     const Mesh& mesh = world_.scene().meshes[m];
     const Spot spot(world_.scene(), mesh, local);
     Truth truth;
     if (!(length(spot.piece.vector_area()) > 0)) return truth;
-    const std::uint64_t number = mesh.first_sub_patch + std::uint64_t{local};
+    const std::uint64_t number = mesh.first_sub_patch + std::uint64_t{local} + senders_.size();  // by other chances
     Chance looks(3 * number);
     const bool covered = may_be_hidden(spot, looks);
     for (std::uint64_t half = 0; half < 2; ++half) {
@@ -207,8 +217,15 @@ class Tracer {
       for (int c = 0; c < 3; ++c) part[c] *= (facet.pane != 0 ? 2 : 1) * rho[c], most = std::max(most, part[c]);
       if (!(most > 0)) return;
       const Place place{point, facet.normal};
-      lamps_.light(place, chance, direct);
-      for (int c = 0; c < 3; ++c) lux[c] += part[c] * direct[c];
+      if (senders_.empty() || lit_) {
+        lamps_.light(place, chance, direct);
+        for (int c = 0; c < 3; ++c) lux[c] += part[c] * direct[c];
+      }
+      if (!senders_.empty()) {
+        const std::array<double, 3>& sent = senders_[world_.sub_patch_at(facet, point)];
+        for (std::size_t c = 0; c < 3; ++c) lux[c] += part[c] * sent[c];
+        return;
+      }
       if (++reflections > 1) {
         const double go_on = std::min(most, 0.999);
         if (chance.next() >= go_on) return;
@@ -222,6 +239,8 @@ class Tracer {
 
   World world_;
   Lamps lamps_;
+  Senders senders_;
+  bool lit_ = false;
 };
 
 }  // namespace shodo::truth

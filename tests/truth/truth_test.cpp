@@ -182,8 +182,8 @@ TEST(Truth, NoiseOfTheTruthIsNoErrorOfTheMap) {
         row.direct[half][c] = 50;
         total += 0.5 * (row.ambient[half][c] + 50) / 3 / kCount;
       }
-      of_map.direct[0][c] = 50;
-      of_map.ambient[0][c] = k % 2 == 0 ? 102 : 98;
+      of_map.direct[0][c] = of_map.direct[1][c] = 50;
+      of_map.ambient[0][c] = of_map.ambient[1][c] = k % 2 == 0 ? 102 : 98;
     }
     told[{0, 0, k}] = row;
     map[{0, 0, k}] = of_map;
@@ -194,6 +194,77 @@ TEST(Truth, NoiseOfTheTruthIsNoErrorOfTheMap) {
   EXPECT_NEAR(sums.square / sums.area, 4, 1.2);
   EXPECT_NEAR(total, 150, 0.5);
   EXPECT_NE(truth::comparison("m", told, map, 1).find("ambient error 1."), std::string::npos);
+}
+
+/// Two truths of 20 lx of noise each that are 2 lx apart.
+TEST(Truth, NoiseOfNeitherOfTwoTruthsIsTheirDifference) {
+  truth::Chance chance(5);
+  truth::Sums sums;
+  constexpr std::uint32_t kCount = 4000;
+  for (std::uint32_t k = 0; k < kCount; ++k) {
+    double one[2][3], other[2][3];
+    for (int half = 0; half < 2; ++half) {
+      for (int c = 0; c < 3; ++c) {
+        one[half][c] = 100 + 20 * (chance.next() - 0.5);
+        other[half][c] = (k % 2 == 0 ? 102 : 98) + 20 * (chance.next() - 0.5);
+      }
+    }
+    sums.add(truth::compared({0, 0, k}, {"o", false, 1, 1, {}, {}}, one, other));
+  }
+  // The products' spread is 68 / sqrt(3) lx^2; of 4000 that is 0.62 in 4.
+  EXPECT_NEAR(sums.square / sums.area, 4, 2.5);
+}
+
+/// What a sub-patch is met on: its own middle and a point near each of its corners.
+TEST(Truth, EveryKindOfMeshKnowsItsSubPatches) {
+  const LoadedScene scene("shodo 1\nmaterial wall diffuse 0.5\nobject all\n"
+                          "quad wall 0 0 0 4 0 0 4 2 0 0 2 0 patches 3 2 sub 2 3\n"
+                          "quad wall 0 4 0 4 4 0 3 6 0 1 6 0 patches 2 2 sub 3 2\n"
+                          "tri wall 6 0 0 10 0 0 6 3 1 patches 3 sub 2\n"
+                          "grid wall 3 3 6 4 0 7 4 0 9 4 0 6 5 0 7 6 1 9 5 0 6 8 0 7 8 0 9 8 0 sub 2 3\n");
+  const truth::World world(scene.scene, scene.scene);
+  for (std::uint32_t m = 0; m < 4; ++m) {
+    const Mesh& mesh = scene.scene.meshes[m];
+    for (std::uint32_t k = 0; k < mesh.sub_patch_count(); ++k) {
+      const Piece piece = sub_patch_piece(scene.scene, mesh, k);
+      truth::Facet facet;
+      facet.mesh = m;
+      facet.cell = cell_of_patch(mesh, patch_of_sub_patch(mesh, k));
+      for (const auto& [s, t] : {std::pair(0.33, 0.33), std::pair(0.05, 0.05), std::pair(0.9, 0.05),
+                                 std::pair(0.05, 0.9)}) {
+        EXPECT_EQ(world.sub_patch_at(facet, piece.point(s, t)), mesh.first_sub_patch + k) << m;
+      }
+    }
+  }
+}
+
+/// A cube of which half of the floor sends: its walls get what the form factors of whole and half squares say.
+TEST(Truth, PathsThatEndWhereTheyMeetSomethingFindWhatThatSends) {
+  const LoadedScene cube("shodo 1\nmaterial wall diffuse 0.7\n" + box(4, 4, 4, "wall", "patches 2 1 sub 1 1"));
+  truth::Tracer tracer(cube.scene);
+  truth::Tracer::Senders senders(12, {0, 0, 0});
+  senders[0] = {100, 50, 25};
+  tracer.end_at(senders, false);
+  const std::vector<truth::Truth> truths = tracer.all(4096, 1);
+  const Means ceiling = means_of(cube.scene, truths, 1, 2), all = means_of(cube.scene, truths, 0, 6);
+  // Opposite faces of a cube have F = 0.199825; half of the floor gives the whole ceiling half of that.
+  EXPECT_NEAR(ceiling.ambient, 0.7 * 100 * 0.199825 / 2, 0.02);
+  // All that it sends arrives, on six faces.
+  EXPECT_NEAR(all.ambient, 0.7 * 100 / 12, 0.02);
+  for (const truth::Truth& truth : truths) {
+    EXPECT_NEAR(truth.half[0].lux[1], truth.half[0].lux[0] / 2, 1e-9);
+    EXPECT_NEAR(truth.half[0].lux[2], truth.half[0].lux[0] / 4, 1e-9);
+  }
+}
+
+/// The same by a lamp in the cube's middle, whose light each place has as it is: all that it sends, reflected once.
+TEST(Truth, PathsThatEndFindDirectLightThere) {
+  const LoadedScene cube("shodo 1\nmaterial wall diffuse 0.7\n" + box(4, 4, 4, "wall", "patches 1 1 sub 1 1") +
+                         "light lamp point at 2 2 2 intensity 100\n");
+  truth::Tracer tracer(cube.scene);
+  tracer.end_at(truth::Tracer::Senders(6, {10, 10, 10}), true);
+  const Means means = means_of(cube.scene, tracer.all(4096, 1), 0, 6);
+  EXPECT_NEAR(means.ambient, 0.7 * (10 + 4 * kPi * 100 / 96), 0.02);  // six sequences of 8,192: measured, 0.003
 }
 
 }  // namespace

@@ -74,6 +74,14 @@ class World {
     const double* of = reflectance_[facet.mesh].of(textured_[facet.mesh] ? patch_at(mesh, facet.cell, point) : 0, room);
     for (std::uint32_t c = 0; c < 3; ++c) rho[c] = of[c < scene_.channels ? c : 0];
   }
+  /// The sub-patch of the scene at a point of a facet, by its number.
+  std::uint32_t sub_patch_at(const Facet& facet, const Vec3& point) const {
+    const Mesh& mesh = scene_.meshes[facet.mesh];
+    const std::uint32_t width = mesh.map_width();
+    const PieceIndex at = piece_at(mesh, width, mesh.map_height(), facet.cell, point);
+    const bool triangle = mesh.kind == MeshKind::kTriangle;
+    return mesh.first_sub_patch + (triangle ? triangle_piece_order(width, at) : at.v * width + at.u);
+  }
   /// What a pane lets through.
   Rgb transmit(const Facet& facet) const { return scene_.optics_of(scene_.meshes[facet.mesh].material)->transmit; }
 
@@ -128,18 +136,23 @@ class World {
   }
 
   std::uint32_t patch_at(const Mesh& mesh, std::uint32_t cell, const Vec3& point) const {
+    const PieceIndex at = piece_at(mesh, mesh.nu, mesh.nv, cell, point);
+    return mesh.kind == MeshKind::kTriangle ? triangle_piece_order(mesh.nu, at) : at.v * mesh.nu + at.u;
+  }
+
+  /// Of a mesh's pieces, `nu` times `nv`, the one at a point of its cell.
+  PieceIndex piece_at(const Mesh& mesh, std::uint32_t nu, std::uint32_t nv, std::uint32_t cell,
+                      const Vec3& point) const {
     double s, t;
     invert(cell_piece(scene_, mesh, cell), point, s, t);
     if (mesh.kind == MeshKind::kTriangle) {
-      const std::uint32_t u = part(s, mesh.nu);
-      const std::uint32_t v = std::min(part(t, mesh.nu), mesh.nu - 1 - u);
-      const bool beyond = s * mesh.nu - u + t * mesh.nu - v > 1 && u + v + 1 < mesh.nu;
-      return triangle_piece_order(mesh.nu, {u, v, beyond});
+      const std::uint32_t u = part(s, nu);
+      const std::uint32_t v = std::min(part(t, nu), nu - 1 - u);
+      return {u, v, s * nu - u + t * nu - v > 1 && u + v + 1 < nu};
     }
-    if (mesh.kind == MeshKind::kQuad) return part(t, mesh.nv) * mesh.nu + part(s, mesh.nu);
-    const std::uint32_t in_u = mesh.nu / mesh.cells_u, in_v = mesh.nv / mesh.cells_v;
-    const std::uint32_t u = cell % mesh.cells_u * in_u + part(t, in_u), v = cell / mesh.cells_u * in_v + part(s, in_v);
-    return v * mesh.nu + u;
+    if (mesh.kind == MeshKind::kQuad) return {part(s, nu), part(t, nv), false};
+    const std::uint32_t in_u = nu / mesh.cells_u, in_v = nv / mesh.cells_v;
+    return {cell % mesh.cells_u * in_u + part(t, in_u), cell / mesh.cells_u * in_v + part(s, in_v), false};
   }
 
   const Scene& scene_;
