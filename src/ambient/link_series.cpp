@@ -79,15 +79,20 @@ struct Moments {
   }
 };
 
-/// Bit k: all cached samples of the mesh have the same coordinate along axis k.
+/// Bit k: all samples of the mesh have the same coordinate along axis k. The cached ones may be one point: only across
+/// the mesh do they speak for all.
 std::uint8_t flat_axes(const Surfaces& s, std::uint32_t k) {
   LatticeBox box;
   for (std::uint32_t node = s.mesh_begin[k]; node < s.mesh_begin[k + 1]; ++node) {
     if (!(s.root_area[node] > 0)) continue;
     for (std::uint32_t p = 0; p < s.cached_points; ++p) box.include(s.samples(node)[p]);
   }
+  const Vec3 normal = s.patch(s.mesh_begin[k]).normal;
+  const double across[3] = {normal.x, normal.y, normal.z};
   std::uint32_t flat = 0;
-  for (std::uint32_t axis = 0; axis < 3; ++axis) flat |= box.low[axis] == box.high[axis] ? 1u << axis : 0;
+  for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    flat |= box.low[axis] == box.high[axis] && across[axis] * across[axis] > 0.5 ? 1u << axis : 0;
+  }
   return static_cast<std::uint8_t>(flat);
 }
 
@@ -104,11 +109,11 @@ Vec3 centroid_offset(const PatchShape& shape) {
 
 MeshPlace place_mesh(const Surfaces& s, std::uint32_t k) {
   MeshPlace place;
-  place.flat = flat_axes(s, k);
   const std::uint32_t first = s.mesh_begin[k];
   const Mesh& mesh = s.scene->meshes[s.mesh_at[k]];
   const PatchShape shape = shape_of(patch_piece(*s.scene, mesh, 0));
   if (first == s.mesh_begin[k + 1]) return place;
+  place.flat = flat_axes(s, k);
   const Vec3 normal = s.patch(first).normal;
   std::int32_t n[3];
   put(n, static_cast<double>(kOne) * normal);

@@ -216,7 +216,7 @@ VisibleFraction visible_fraction(const Surfaces& surfaces, std::uint32_t i, std:
   const bool panes = panes_between(ends, intersector);
   if (sight == nullptr) {
     tester.aim = aim_between(surfaces, ends, first.few == surfaces.cached_set ? &wide : nullptr, intersector);
-    if (tester.aim.clear() && !panes) return {1, 0};
+    if (tester.aim.clear() && !panes && !crossing) return {1, 0};
   }
   if (panes) {
     bool mixed;

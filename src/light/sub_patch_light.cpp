@@ -80,14 +80,15 @@ void SubPatch::add_faces(std::uint32_t l) {
   const double shared = sources_.shared_factor(l, receiver_);
   if (shared == 0) return;
   const Shown shown = sources_.shown(l, receiver_);
-  if (shown == Shown::kNothing && shared > 0) {
-    note_dark();
-    return;
-  }
   const bool area = sources_.light(l).kind == LightKind::kArea;
   const Received all = shared > 0 ? sources_.all_of(l, shared) : Received{};
   const double share = sources_.share_squared(l, view_, area_, shared), least = area ? kWeakArea : kWeakPolyhedron;
   const bool weak = share < least * least;
+  if (shown == Shown::kNothing && shared > 0) {  // what all would ask that look, and find it dark
+    if (!covered()) note_dark();
+    if (area && !weak) above();
+    return;
+  }
   if (shown == Shown::kAll && shared > 0) {
     const double one = 1;
     if (weak) {

@@ -48,17 +48,23 @@ void SubPatch::place_probes() {
 
 void SubPatch::add_point(std::uint32_t l) {
   const Light& light = sources_.light(l);
-  if (!sources_.may_shine_on(l, receiver_) || sources_.shown(l, receiver_) == Shown::kNothing) return;
+  if (!sources_.may_shine_on(l, receiver_)) return;
+  const bool nothing = sources_.shown(l, receiver_) == Shown::kNothing;  // as all would find that look
   const double step = sources_.geometry().lattice.step();
   const bool near = light.kind == LightKind::kPoint && near_point(light, receiver_, piece_, step);
   Received received[kMostProbes];
   std::uint32_t asked = 0;
   if (light.kind == LightKind::kPoint && !near) {
     place_centre();
-    sources_.expect(centre_group_.box);
-    received[asked++] = sources_.receive(l, receiver_, {centre_group_.point[0], centre_group_.lattice[0]});
+    if (nothing) {
+      received[asked++].lux = sources_.point_lux_at(l, receiver_, centre_group_.point[0]);
+    } else {
+      sources_.expect(centre_group_.box);
+      received[asked++] = sources_.receive(l, receiver_, {centre_group_.point[0], centre_group_.lattice[0]});
+    }
     if (weak_point(l, received)) return;
   }
+  if (nothing) return;
   place_probes();
   sources_.expect(probed_);
   for (std::uint32_t k = asked; k < probes_.count; ++k) {

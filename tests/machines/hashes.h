@@ -24,7 +24,7 @@ inline constexpr Hashes kHashes[] = {
     {"textures", 0xcbdb3cfe3740623d, 0x5804eee79f24b372},
     {"glass", 0x0634c812b8d70bc2, 0xea9b963b2f0b549d},
     {"gather", 0x0e2a49a9b3c1d6e0, 0x9eabc07fd9038df0},
-    {"day", 0xe5bc50aa318d99e2, 0xb40799436aa72a20},
+    {"day", 0x4ea10208e7bbaf0c, 0x867f02686b237587},
 };
 
 }  // namespace machines

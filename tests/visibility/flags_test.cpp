@@ -49,6 +49,51 @@ std::string self_shadowing_room(double angle) {
   return scene.text();
 }
 
+/// A lamp, a window or a bright panel that one polygon hides from whole patches, where a box stands on a part of a
+/// sub-patch: what looks without flags then asks for what is hidden, and so must what doesn't look.
+TEST(Flags, AutoChangesNoBitWhereAHiddenLightFallsOnWhatIsPartlyCovered) {
+  const std::string dark =
+      "shodo 1\nmaterial wall diffuse 0.7\nobject room\n"
+      "quad wall 0 0 0  0 0 4  6 0 4  6 0 0  patches 6 4\nquad wall 0 2.5 0  6 2.5 0  6 2.5 4  0 2.5 4  patches 6 4\n"
+      "quad wall 0 0 0  6 0 0  6 2.5 0  0 2.5 0  patches 6 3\nquad wall 0 0 4  0 2.5 4  6 2.5 4  6 0 4  patches 3 6\n"
+      "quad wall 0 0 0  0 2.5 0  0 2.5 4  0 0 4  patches 3 4\nquad wall 6 0 0  6 0 4  6 2.5 4  6 2.5 0  patches 4 3\n"
+      "object partition\nquad wall 3 0 1  3 2.5 1  3 2.5 4  3 0 4\nquad wall 3 0 1  3 0 4  3 2.5 4  3 2.5 1\n"
+      "object cupboard\n"
+      "quad wall 4.27 0 2.31  4.27 0 3.13  4.27 1.2 3.13  4.27 1.2 2.31\n"
+      "quad wall 5.11 0 2.31  5.11 1.2 2.31  5.11 1.2 3.13  5.11 0 3.13\n"
+      "quad wall 4.27 0 2.31  4.27 1.2 2.31  5.11 1.2 2.31  5.11 0 2.31\n"
+      "quad wall 4.27 0 3.13  5.11 0 3.13  5.11 1.2 3.13  4.27 1.2 3.13\n"
+      "quad wall 4.27 1.2 2.31  4.27 1.2 3.13  5.11 1.2 3.13  5.11 1.2 2.31\n";
+  for (const char* light :
+       {"light lamp point at 0.5 2.2 3.2 intensity 300\n",
+        "light far area quad 0.4 2.2 3  0.6 2.2 3  0.6 2.2 3.2  0.4 2.2 3.2 luminance 900\n",
+        "light large area quad 0.2 2.4 1.2  2.6 2.4 1.2  2.6 2.4 3.8  0.2 2.4 3.8 luminance 900\n",
+        "light lamp point at 0.5 2.2 3.2 intensity 300\nlight beyond point at 5.7 2.2 0.4 intensity 2\n",
+        "light large area quad 0.2 2.4 1.2  2.6 2.4 1.2  2.6 2.4 3.8  0.2 2.4 3.8 luminance 900\n"
+        "light beyond point at 5.7 2.2 0.4 intensity 2\n"}) {
+    SCOPED_TRACE(light);
+    expect_same(dark + light);
+  }
+}
+
+/// One segment first, more where it is mixed: where the one starts doesn't speak for the others.
+TEST(Flags, AutoChangesNoBitWhereOneSegmentComesFirst) {
+  const std::string three =
+      "shodo 1\nmaterial b diffuse 0.84\nmaterial c diffuse 0.63\nmaterial d diffuse 0.30\nobject o1\n"
+      "quad c -2 2 2  2 2 2  2 -2 2  -2 -2 2\n"
+      "quad d 1.1433 0.31772 -0.61832  1.1433 0.31815 0.38168  2.1433 0.46624 0.38168  2.1433 0.41438 -0.61832\n"
+      "quad b 0.82913 0.634 0.79291  0.82913 0.634 1.7929  0.82913 -2 1.7929  0.82913 -2 0.79291 patches 3 3\n"
+      "light l3 area quad -2.1 -0.5 -1  -2.1 0.9 -1  -2.1 0.9 1.2  -2.1 -0.5 1.2 luminance 3000 open\n";
+  Options options;
+  options.patch_size = 1.5;
+  options.segments_first = 1;
+  for (const std::uint32_t mixed : {16u, 64u}) {
+    options.segments_mixed = mixed;
+    options.rules.blocks = true;
+    expect_same(three, options);
+  }
+}
+
 TEST(Flags, AutoChangesNoBitWhereOneObjectShadowsItself) {
   for (const double angle : {0.0, 0.1, 0.7}) {
     const Compared both = expect_same(self_shadowing_room(angle));
