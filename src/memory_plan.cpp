@@ -128,8 +128,8 @@ PartText plan_part_text(PlanPart part) {
       {"ambient maps", "4 c s"},
       {"spreading over a mesh, or gathering",
        "9 a patch + 8 a row of sub-patches, of the largest mesh; --gather: 52 polygons + 4 triangles + "
-       "(2 c + 5) s + the larger of possible blockers and 164 polygons + 4 corners + 1,024, less what stands where n "
-       "has values"},
+       "(2 c + 5) s + 72 of s near to a point light + the larger of possible blockers and 164 polygons + 4 corners + "
+       "1,024, less what stands where n has values"},
       {"drawing, or placing again",
        "1,952 + 2 c s + 8,193 + (4 c + 3) width + 4 rows + 10 drawn + 208 active triangles; textures: 4/3 of their "
        "texels"},
@@ -153,7 +153,8 @@ std::uint64_t MemoryPlan::peak() const {
 std::uint64_t maps_bytes(const Model& model) {
   const std::uint64_t spread = map_bytes(model.scene, model.options);
   if (!features::gathers(model.options)) return spread;
-  return larger(spread, map_value_bytes(model.scene) + gather_bytes(model.scene, model.geometry, model.options));
+  return larger(spread, map_value_bytes(model.scene) + gather_bytes(model.scene, model.geometry, model.options,
+                                                                 model.near_light_count));
 }
 
 std::uint64_t drawn_and_picture_bytes(const Model& model) {

@@ -44,6 +44,7 @@ struct alignas(8) Model {  // as the blocks behind it
   Arena::Mark after_geometry = 0;  // then come the patches
   Arena::Mark after_patches = 0;
   std::uint32_t loaded_spares = 0;
+  std::uint32_t near_light_count = 0;  // sub-patches that a point light may be near to, if they gather
   std::uint64_t picture_scratch = 0;  // bytes of prepare_picture(); found while the drawn triangles are there
   Arena::Mark before_maps = 0;     // what the picture is made of comes from here on
   Arena::Mark before_drawing = 0;

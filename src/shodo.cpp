@@ -10,6 +10,7 @@
 
 #include "ambient/gather.h"
 #include "ambient/plane_gather.h"
+#include "ambient/sent_light.h"
 #include "base/interrupted.h"
 #include "base/self_check.h"
 #include "base/text.h"
@@ -89,6 +90,9 @@ Status place(Model& model) {
   if (!status.done()) return status;
   model.after_geometry = model.arena.mark();
   model.loaded_spares = model.arena.spares();
+  if (features::gathers(model.options)) {
+    model.near_light_count = SentLight::uneven_count(model.scene, model.geometry.lattice.step());
+  }
   status = build_patches(model.scene, model.geometry, model.arena, model.patches, model.statistics);
   model.after_patches = model.arena.mark();
   return status;

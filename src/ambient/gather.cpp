@@ -55,14 +55,18 @@ class Gather {
   void begin(std::uint32_t number);
   std::uint32_t look(std::uint32_t number, std::uint32_t further);
   template <std::uint32_t kChannels>
-  void send(std::uint32_t from, std::uint32_t to);
+  void send(std::uint32_t from, std::uint32_t to, std::uint32_t number, std::uint32_t further);
+  template <std::uint32_t kChannels>
+  void sent_by(std::uint32_t from, std::uint32_t number, std::uint32_t further, std::uint32_t (&units)[3]);
+  template <std::uint32_t kChannels>
+  void send_unevenly(std::uint32_t from, std::uint32_t to, std::uint32_t number, std::uint32_t further);
   template <std::uint32_t kChannels>
   void exchange(std::uint32_t one, std::uint32_t other);
   void receive_nothing(std::uint32_t number, bool back);
   template <std::uint32_t kChannels>
   void through_panes(std::span<const std::uint32_t> order);
   template <std::uint32_t kChannels>
-  void receive_through_panes(std::uint32_t k, std::span<const std::uint32_t> order);
+  void receive_through_panes(std::uint32_t k, std::span<const std::uint32_t> order, std::uint32_t line);
   void send_anew();
   double spacing_of(double lines) const;
   template <class Do>
@@ -102,11 +106,16 @@ void Gather::start() {
   }
 }
 
-/// A crossing that is new.
+/// A crossing that doesn't follow from the line before.
 void Gather::begin(std::uint32_t number) {
   LineBundle::Crossing& crossing = lines_.crossing(number);
   Surface& surface = surfaces_[number];
   crossing.fresh = false;
+  if (!crossing.first) {
+    if (surface.walks) memory_.finder.go_on(crossing.triangle, lines_.point(crossing), surface.walk);
+    return;
+  }
+  crossing.first = false;
   surface.light = !memory_.finder.is_of_mesh(crossing.triangle);
   surface.walks = !surface.light && memory_.finder.start(crossing.triangle, lines_.point(crossing),
                                                          lines_.way(crossing), surface.walk);
@@ -129,11 +138,31 @@ inline std::uint32_t Gather::look(std::uint32_t number, std::uint32_t further) {
   return scene_.meshes[found.mesh].first_sub_patch + found.sub_patch;
 }
 
-/// A line brings to one sub-patch what another sends.
+/// What a sub-patch sends along a line, from where that crosses it, `further` on than the first.
 template <std::uint32_t kChannels>
-inline void Gather::send(std::uint32_t from, std::uint32_t to) {
+void Gather::sent_by(std::uint32_t from, std::uint32_t number, std::uint32_t further, std::uint32_t (&units)[3]) {
+  const std::uint16_t* const sent = memory_.sent.of<kChannels>(from);
+  if (SentLight::is_uneven(sent)) {
+    const LatticePoint at = lines_.point(lines_.crossing(number), further);
+    return memory_.sent.from(sent, scene_point(geometry_.lattice, at), units);
+  }
+  for (std::uint32_t c = 0; c < kChannels; ++c) units[c] = SentLight::unpacked(sent[c]);
+}
+
+template <std::uint32_t kChannels>
+[[gnu::noinline]] void Gather::send_unevenly(std::uint32_t from, std::uint32_t to, std::uint32_t number,
+                                             std::uint32_t further) {
+  std::uint32_t units[3];
+  sent_by<kChannels>(from, number, further, units);
+  memory_.sums.add<kChannels>(to, [&](std::uint32_t c) { return units[c]; });
+}
+
+/// A line brings it to another.
+template <std::uint32_t kChannels>
+inline void Gather::send(std::uint32_t from, std::uint32_t to, std::uint32_t number, std::uint32_t further) {
   if (to == kNone || !memory_.sums.count(to) || from == kNone) return;
   const std::uint16_t* const sent = memory_.sent.of<kChannels>(from);
+  if (SentLight::is_uneven(sent)) return send_unevenly<kChannels>(from, to, number, further);
   memory_.sums.add<kChannels>(to, [&](std::uint32_t c) { return SentLight::unpacked(sent[c]); });
 }
 
@@ -143,8 +172,8 @@ void Gather::exchange(std::uint32_t one, std::uint32_t other) {
   const std::uint32_t lines = lines_.lines();
   for (std::uint32_t k = 0; k < lines; ++k) {
     const std::uint32_t a = look(one, k), b = look(other, k);
-    send<kChannels>(a, b);
-    send<kChannels>(b, a);
+    send<kChannels>(a, b, one, k);
+    send<kChannels>(b, a, other, k);
   }
 }
 
@@ -161,7 +190,7 @@ void Gather::receive_nothing(std::uint32_t number, bool back) {
 /// What the front of the k-th surface gets along one line where panes may stand in between: they weaken what comes
 /// through, and send what their fronts reflect.
 template <std::uint32_t kChannels>
-void Gather::receive_through_panes(std::uint32_t k, std::span<const std::uint32_t> order) {
+void Gather::receive_through_panes(std::uint32_t k, std::span<const std::uint32_t> order, std::uint32_t line) {
   const std::uint32_t to = surfaces_[order[k]].sub_patch;
   if (to == kNone || !memory_.sums.count(to)) return;
   const bool up = lines_.crossing(order[k]).up;
@@ -170,10 +199,9 @@ void Gather::receive_through_panes(std::uint32_t k, std::span<const std::uint32_
     const Surface& other = surfaces_[order[next]];
     const bool front = lines_.crossing(order[next]).up != up;
     if (front && other.sub_patch != kNone) {
-      const std::uint16_t* const sent = memory_.sent.of<kChannels>(other.sub_patch);
-      memory_.sums.add<kChannels>(to, [&](std::uint32_t c) {
-        return static_cast<std::uint32_t>(part[c] * SentLight::unpacked(sent[c]));
-      });
+      std::uint32_t units[3];
+      sent_by<kChannels>(other.sub_patch, order[next], line, units);
+      memory_.sums.add<kChannels>(to, [&](std::uint32_t c) { return static_cast<std::uint32_t>(part[c] * units[c]); });
     }
     if (other.pane == kNone) {
       if (!front) memory_.sums.count_back(to);
@@ -187,7 +215,7 @@ template <std::uint32_t kChannels>
 void Gather::through_panes(std::span<const std::uint32_t> order) {
   for (std::uint32_t line = 0; line < lines_.lines(); ++line) {
     for (const std::uint32_t number : order) surfaces_[number].sub_patch = look(number, line);
-    for (std::uint32_t k = 0; k < order.size(); ++k) receive_through_panes<kChannels>(k, order);
+    for (std::uint32_t k = 0; k < order.size(); ++k) receive_through_panes<kChannels>(k, order, line);
   }
 }
 
@@ -315,12 +343,12 @@ struct Bytes {
   std::uint64_t lines, cuts;  // counts of sub-patches' lines, what rows cut
   std::uint64_t all_along, while_shooting, at_the_end;
 
-  Bytes(const Scene& scene, const Geometry& geometry, const Options& options) {
+  Bytes(const Scene& scene, const Geometry& geometry, const Options& options, std::uint32_t near) {
     const GatheredSums::Bytes sums = GatheredSums::bytes(scene);
     const LineBundle::Bytes bundle = LineBundle::bytes(geometry);
     lines = sums.lines;
     cuts = bundle.cuts;
-    all_along = SubPatchFinder::bytes(geometry) + SentLight::bytes(scene) + sums.rest;
+    all_along = SubPatchFinder::bytes(geometry) + SentLight::bytes(scene, near) + sums.rest;
     while_shooting = bundle.rest + block(sizeof(Surface) * std::uint64_t{bundle.polygons});
     at_the_end = Intersector::bytes(geometry, options.flags);
   }
@@ -336,14 +364,16 @@ Status gather_illuminance(const Scene& scene, const Geometry& geometry, const Di
                           Intersector& intersector, const Options& options, const Progress& progress, Arena& arena,
                           GatherRoom room, std::span<float> ambient_lx, Statistics& statistics) {
   const ArenaScratch release(arena);
-  const Bytes bytes(scene, geometry, options);
+  const std::uint32_t near = SentLight::uneven_count(scene, geometry.lattice.step());
+  const Bytes bytes(scene, geometry, options, near);
   const bool tight = arena.left() < bytes.with(false, false);
   Arena of_ambient(room.ambient.data(), room.ambient.size_bytes());
   Arena of_direct(room.direct.data(), room.direct.size_bytes());
   Arena& for_lines = tight && bytes.lines <= of_ambient.capacity() ? of_ambient : arena;
   Arena& for_cuts = tight && bytes.cuts <= of_direct.capacity() ? of_direct : arena;
   Memory memory;
-  if (!memory.finder.take(scene, geometry, arena) || !memory.sent.take(scene, direct, ambient_lx, arena) ||
+  if (!memory.finder.take(scene, geometry, arena) ||
+      !memory.sent.take(scene, geometry.lattice.step(), near, direct, ambient_lx, arena) ||
       !memory.sums.take(scene, ambient_lx, arena, for_lines)) {
     return arena.refused();
   }
@@ -358,8 +388,8 @@ Status gather_illuminance(const Scene& scene, const Geometry& geometry, const Di
   return {};
 }
 
-std::uint64_t gather_bytes(const Scene& scene, const Geometry& geometry, const Options& options) {
-  const Bytes bytes(scene, geometry, options);
+std::uint64_t gather_bytes(const Scene& scene, const Geometry& geometry, const Options& options, std::uint32_t near) {
+  const Bytes bytes(scene, geometry, options, near);
   const std::uint64_t room = sizeof(double) * std::uint64_t{scene.patch_count} * scene.channels;
   return bytes.with(bytes.lines <= room, bytes.cuts <= room);
 }

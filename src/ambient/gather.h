@@ -13,10 +13,11 @@
 // sixteenth, an eighth, a quarter and half of the bundles. Of one that stands partly inside or under something the
 // hidden part is left out of the mean. No form factor, no segment, nothing is scaled.
 // Exact: what faces what along each line. Approximate: the mean of N lines, to about N^-0.6 of its spread; sub-patches
-// that send are one value each; the visible part of a sub-patch, in sixteenths.
-// Bytes: 52 a polygon, 4 a triangle, 2 a sub-patch and channel, 5 a sub-patch, and 164 a polygon, 4 a corner of it and
-// 1,024, or those of the intersector. Where the arena has no room, 3 a sub-patch and 72 a polygon stand where values of
-// patches do.
+// that send are one value each, unless a point light is near (ambient/near_light.h); the visible part of a sub-patch,
+// in sixteenths.
+// Bytes: 52 a polygon, 4 a triangle, 2 a sub-patch and channel, 5 a sub-patch, 72 one that a light is near to, and 164
+// a polygon, 4 a corner of it and 1,024, or those of the intersector. Where the arena has no room, 3 a sub-patch and 72
+// a polygon stand where values of patches do.
 #pragma once
 
 #include <cstdint>
@@ -46,7 +47,7 @@ Status gather_illuminance(const Scene& scene, const Geometry& geometry, const Di
                           Intersector& intersector, const Options& options, const Progress& progress, Arena& arena,
                           GatherRoom room, std::span<float> ambient_lx, Statistics& statistics);
 
-/// The arena bytes that it needs at least, all of which it gives back.
-std::uint64_t gather_bytes(const Scene& scene, const Geometry& geometry, const Options& options);
+/// The arena bytes that it needs at least, all of which it gives back; `near`: SentLight::uneven_count().
+std::uint64_t gather_bytes(const Scene& scene, const Geometry& geometry, const Options& options, std::uint32_t near);
 
 }  // namespace shodo

@@ -1,5 +1,6 @@
 #include "ambient/sub_patch_finder.h"
 
+#include "base/elementary.h"
 #include "scene/mesh.h"
 
 namespace shodo {
@@ -7,13 +8,17 @@ namespace shodo {
 namespace {
 
 constexpr double kFlat = 1e-6;  // of a side: a parallelogram but for so much
-constexpr int kSteps = 8;
-constexpr double kNear = 1e-2;  // Newton's next step is about its square
 
 /// Parameters on a piece, as Piece::point() takes them.
 struct Parameters {
   double s, t;
 };
+
+/// Seen along an axis.
+struct Flat {
+  double y, z;
+};
+double area(const Flat& a, const Flat& b) { return a.y * b.z - a.z * b.y; }
 
 /// Of a point in the plane of corner, corner + s, corner + t.
 Parameters affine_parameters(const Vec3& off, const Vec3& s, const Vec3& t) {
@@ -37,23 +42,26 @@ Parameters cut_parameters(const Piece& piece, const Vec3& at) {
   return affine_parameters(at - c[0], c[2] - c[3], c[3] - c[0]);
 }
 
-/// Newton's steps from the middle; off the piece, if it is twisted, the nearest along it.
+/// As seen along the axis to which the piece is most nearly square; of a plane one that is exact.
 Parameters bilinear_parameters(const Piece& piece, const Vec3& at) {
   const Vec3* c = piece.corner;
-  Parameters p{0.5, 0.5};
-  for (int step = 0; step < kSteps; ++step) {
-    const Vec3 along_s = (1 - p.t) * (c[1] - c[0]) + p.t * (c[2] - c[3]);
-    const Vec3 along_t = (1 - p.s) * (c[3] - c[0]) + p.s * (c[2] - c[1]);
-    const Vec3 off = at - piece.point(p.s, p.t);
-    const double ss = dot(along_s, along_s), st = dot(along_s, along_t), tt = dot(along_t, along_t);
-    const double of_s = dot(off, along_s), of_t = dot(off, along_t), square = ss * tt - st * st;
-    if (!(square > 0)) break;
-    const double more_s = (tt * of_s - st * of_t) / square, more_t = (ss * of_t - st * of_s) / square;
-    p.s += more_s;
-    p.t += more_t;
-    if (magnitude(more_s) + magnitude(more_t) < kNear) break;
-  }
-  return p;
+  const Vec3 front = piece.vector_area();
+  const double x = magnitude(front.x), y = magnitude(front.y), z = magnitude(front.z);
+  const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+  const auto seen = [&](const Vec3& v) {
+    if (axis == 0) return Flat{v.y, front.x < 0 ? -v.z : v.z};
+    if (axis == 1) return Flat{v.z, front.y < 0 ? -v.x : v.x};
+    return Flat{v.x, front.z < 0 ? -v.y : v.y};
+  };
+  // off = s along_s + t along_t + s t bend: without s a quadratic equation for t, of which the first root is on the
+  // piece.
+  const Flat along_s = seen(c[1] - c[0]), along_t = seen(c[3] - c[0]), off = seen(at - c[0]);
+  const Flat bend = seen((c[2] - c[3]) - (c[1] - c[0]));
+  const double whole = area(along_s, along_t), bent = area(bend, along_t);
+  const double linear = area(off, bend) + whole, constant = area(along_s, off);
+  const double square = linear * linear + 4 * bent * constant;
+  const double t = 2 * constant / (linear + square_root(square > 0 ? square : 0));
+  return {area(off, along_t) / (whole + t * bent), t};
 }
 
 bool is_linear(const Piece& piece) {
@@ -87,6 +95,14 @@ std::uint32_t sub_patch_at(const Mesh& mesh, const MapPoint& at) {
 std::int32_t scaled_slope(double slope) {
   const double scaled = slope * 0x1p32;
   return scaled >= 0x1p31 ? INT32_MAX : scaled <= -0x1p31 ? INT32_MIN : static_cast<std::int32_t>(scaled);
+}
+
+/// Of 2^right. Sums wrap around where parts of them don't fit; they themselves do.
+std::int32_t wrapped_dot(const std::int32_t (&slope)[3], std::int32_t x, std::int32_t y, std::int32_t z, int right) {
+  const std::uint64_t all = static_cast<std::uint64_t>(product(slope[0], x)) +
+                            static_cast<std::uint64_t>(product(slope[1], y)) +
+                            static_cast<std::uint64_t>(product(slope[2], z));
+  return static_cast<std::int32_t>(static_cast<std::int64_t>(all) >> right);
 }
 
 /// Of a mesh: sub-patches in one of its cells, and the cell's first.
@@ -178,23 +194,22 @@ bool SubPatchFinder::start(std::uint32_t triangle, const LatticePoint& at, const
   }
   constexpr std::uint32_t kMost = 1 << 14;  // 16.16
   if (cell.linear == 0 || mesh.kind == MeshKind::kTriangle || place.in_u > kMost || place.in_v > kMost) return false;
-  // Sums wrap around where parts of them don't fit; they themselves do.
-  const auto sum = [](const std::int32_t (&slope)[3], std::int32_t x, std::int32_t y, std::int32_t z, int right) {
-    const std::uint64_t all = static_cast<std::uint64_t>(product(slope[0], x)) +
-                              static_cast<std::uint64_t>(product(slope[1], y)) +
-                              static_cast<std::uint64_t>(product(slope[2], z));
-    return static_cast<std::int32_t>(static_cast<std::int64_t>(all) >> right);
-  };
-  const std::int32_t x = at.x - cell.corner.x, y = at.y - cell.corner.y, z = at.z - cell.corner.z;
-  walk.u_ = sum(cell.along_u, x, y, z, 32 - Walk::kBits);
-  walk.v_ = sum(cell.along_v, x, y, z, 32 - Walk::kBits);
-  walk.along_u_ = sum(cell.along_u, way.x, way.y, way.z, 32 - Walk::kBits + kWayBits);
-  walk.along_v_ = sum(cell.along_v, way.x, way.y, way.z, 32 - Walk::kBits + kWayBits);
+  walk.along_u_ = wrapped_dot(cell.along_u, way.x, way.y, way.z, 32 - Walk::kBits + kWayBits);
+  walk.along_v_ = wrapped_dot(cell.along_v, way.x, way.y, way.z, 32 - Walk::kBits + kWayBits);
   walk.in_u_ = static_cast<std::uint16_t>(place.in_u);
   walk.in_v_ = static_cast<std::uint16_t>(place.in_v);
   walk.width_ = mesh.map_width();
   walk.first_ = mesh.first_sub_patch + place.first_v * walk.width_ + place.first_u;
+  go_on(triangle, at, walk);
   return true;
+}
+
+void SubPatchFinder::go_on(std::uint32_t triangle, const LatticePoint& at, Walk& walk) const {
+  if (walk.in_u_ == 1 && walk.in_v_ == 1) return;
+  const Cell& cell = cells_[cell_of_[triangle]];
+  const std::int32_t x = at.x - cell.corner.x, y = at.y - cell.corner.y, z = at.z - cell.corner.z;
+  walk.u_ = wrapped_dot(cell.along_u, x, y, z, 32 - Walk::kBits);
+  walk.v_ = wrapped_dot(cell.along_v, x, y, z, 32 - Walk::kBits);
 }
 
 std::uint32_t SubPatchFinder::find_bent(const Mesh& mesh, std::uint32_t number, const LatticePoint& at) const {

@@ -1,9 +1,9 @@
 // Which sub-patch a point of a surface lies on: what a line crosses (ambient/gather.h).
 //
 // A triangle of the geometry is one of a polygon of the file, found by its number. On a triangle or a parallelogram map
-// coordinates are linear in the point; elsewhere the bilinear map is inverted by Newton's steps, a polygon that is cut
-// by halves. Approximate: coordinates are known to 1e-3 of a sub-patch and a step of the lattice, and a point that
-// rounding puts beyond an edge counts as on it.
+// coordinates are linear in the point; elsewhere the bilinear map is inverted, as seen along an axis, or a polygon that
+// is cut by halves. Approximate: coordinates are known to 1e-3 of a sub-patch and a step of the lattice, and a point
+// that rounding puts beyond an edge counts as on it.
 // Bytes: 52 a polygon, 4 a triangle.
 #pragma once
 
@@ -63,6 +63,8 @@ class SubPatchFinder {
   /// aren't linear, ask find() for each point.
   bool start(std::uint32_t triangle, const LatticePoint& at, const LatticePoint& way, Walk& walk) const;
   static constexpr int kWayBits = 10;
+  /// From another point of the same polygon, the same way; of a walk that started.
+  void go_on(std::uint32_t triangle, const LatticePoint& at, Walk& walk) const;
 
  private:
   /// u = first_u + along_u . (at - corner) / 2^32, in sub-patches of the mesh, and so v; not if it isn't linear.

@@ -284,6 +284,7 @@ void LineBundle::begin(std::uint32_t number) {
   if (free_ != kNone) free_ = cut.packed;
   by_first_[cut_++].number = place;
   cut.packed = 2 * number + (along > 0 ? 1 : 0);
+  crossings_[place].first = true;
   std::uint16_t lowest = 0;
   std::int32_t low = INT32_MAX, high = INT32_MIN;
   for (std::uint16_t k = 0; k < outline.corners; ++k) {
@@ -428,7 +429,8 @@ void LineBundle::enter(std::uint32_t number) {
   const Cut& cut = cuts_[number];
   const std::int32_t longest = line_ + kLongest;
   const std::uint32_t triangle = outlines_[cut.outline()].triangle;
-  crossings_[number] = {depth(cut), cut.step, cut.last < longest ? cut.last : longest, triangle, cut.up(), true};
+  Crossing& crossing = crossings_[number];
+  crossing = {depth(cut), cut.step, cut.last < longest ? cut.last : longest, triangle, cut.up(), true, crossing.first};
 }
 
 /// To the line after those at work; what it doesn't cross goes.

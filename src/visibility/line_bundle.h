@@ -31,7 +31,8 @@ class LineBundle {
     std::int32_t end;        // a line of the row: `at` is right until then
     std::uint32_t triangle;  // of the geometry; one of the polygon's
     bool up;                 // its front faces along the direction
-    bool fresh;              // `at` and `step` don't follow from the line before; who has seen it may forget
+    bool fresh;              // `at` doesn't follow from the line before; who has seen it may forget
+    bool first;              // and `step` neither: the first one of its polygon
   };
 
   /// What it takes of an arena: a part that may come from elsewhere, and the rest.

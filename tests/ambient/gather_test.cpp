@@ -1,5 +1,6 @@
 // What sub-patches gather: the mean over lines, whole rooms of it.
 #include "ambient/gather.h"
+#include "ambient/sent_light.h"
 
 #include <cmath>
 
@@ -307,7 +308,10 @@ TEST(Gather, StopsWhenItIsToldToAndAsksOften) {
 
 TEST(Gather, WorksInTheBytesThatItSaysAndIsRefusedInLess) {
   for (const FlagMode flags : {FlagMode::kAuto, FlagMode::kOff}) {
-    Gathered room(furnished(0.6), 4, spot);
+    Gathered room(furnished(0.6) + "light lamp point at 1.5 1.5 0.4 intensity 100\n", 4, spot);
+    const Scene& s = room.scene.loaded.scene;
+    const std::uint32_t near = SentLight::uneven_count(s, room.scene.geometry.lattice.step());
+    EXPECT_GT(near, 0u);
     Arena counted(room.memory.data(), room.memory.size() * 8);
     Intersector counting(room.scene.geometry, room.scene.loaded.scene, flags);
     ASSERT_TRUE(counting.take_flags(counted));
@@ -316,7 +320,7 @@ TEST(Gather, WorksInTheBytesThatItSaysAndIsRefusedInLess) {
     EXPECT_TRUE(room.gather(flags).done());
     const std::vector<float> with_plenty = room.lx;
     room.start();
-    room.memory.resize((counted.used() + gather_bytes(room.scene.loaded.scene, room.scene.geometry, options)) / 8);
+    room.memory.resize((counted.used() + gather_bytes(s, room.scene.geometry, options, near)) / 8);
     EXPECT_TRUE(room.gather(flags).done());
     EXPECT_EQ(room.lx, with_plenty);
     room.memory.pop_back();

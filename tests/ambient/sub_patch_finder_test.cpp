@@ -173,8 +173,17 @@ TEST(SubPatchFinder, FindsEverySubPatchOfQuadsThatAreNone) {
   const std::uint32_t leaning = scene.quad({0, 5, 0}, {7, 5, 3}, {8, 9, 3.5}, {0, 7, 0}, 2, 2, 1, 4);
   // Not plane: a corner stands off the plane of the others by a tenth of the sides.
   const std::uint32_t twisted = scene.quad({0, 10, 0}, {4, 10, 0}, {4, 14, 0.4}, {0, 14, 0}, 2, 3, 2, 1);
+  // Fronts along every axis and against it; a corner on the way between its neighbours, which is no bend at all there.
+  const std::uint32_t up_x = scene.quad({9, 0, 0}, {9, 4, 0}, {9, 3, 4}, {9, 1, 2}, 3, 2, 2, 2);
+  const std::uint32_t down_x = scene.quad({10, 1, 2}, {10, 3, 4}, {10, 4, 0}, {10, 0, 0}, 3, 2, 2, 2);
+  const std::uint32_t up_y = scene.quad({0, 20, 0}, {0, 20, 4}, {2, 20, 3}, {4, 20, 0}, 2, 3, 2, 2);
+  const std::uint32_t down_y = scene.quad({4, 21, 0}, {2, 21, 3}, {0, 21, 4}, {0, 21, 0}, 2, 3, 2, 2);
+  const std::uint32_t down_z = scene.quad({9, 10, 1}, {10, 14, 1}, {13, 13, 1}, {15, 10, 1}, 3, 3, 1, 2);
+  const std::uint32_t straight = scene.quad({9, 20, 0}, {13, 20, 0}, {9, 24, 0}, {9, 22, 0}, 2, 2, 2, 2);
   scene.start();
-  for (const std::uint32_t m : {trapezium, leaning, twisted}) scene.expect_all_found(m);
+  for (const std::uint32_t m : {trapezium, leaning, twisted, up_x, down_x, up_y, down_y, down_z, straight}) {
+    scene.expect_all_found(m);
+  }
 }
 
 /// Cut on the diagonal that lies inside, and even on both halves.

@@ -72,6 +72,7 @@ constexpr Case kCases[] = {
     {"textures", "tests/cli/scenes/textures.scn", small, Scarce::kNever, false, false},
     {"glass", "tests/cli/scenes/glass.scn", small, Scarce::kNever, false, true},
     {"gather", "tests/cli/scenes/shapes.scn", gather, Scarce::kNever, false, false},
+    {"panes", "tests/cli/scenes/glass.scn", gather, Scarce::kNever, false, false},
     {"day", "data/day.scn", room, Scarce::kNever, false, false},
 };
 

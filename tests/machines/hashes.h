@@ -23,7 +23,8 @@ inline constexpr Hashes kHashes[] = {
     {"planes", 0xb736224681ec12bc, 0x69f4c7a50455a704},
     {"textures", 0xcbdb3cfe3740623d, 0x5804eee79f24b372},
     {"glass", 0x0634c812b8d70bc2, 0xea9b963b2f0b549d},
-    {"gather", 0x0e2a49a9b3c1d6e0, 0x9eabc07fd9038df0},
+    {"gather", 0x6db934db226b046f, 0x151c34374008fcee},
+    {"panes", 0x3925f996a93ae0f2, 0xed7ad2817d901793},
     {"day", 0x4ea10208e7bbaf0c, 0x867f02686b237587},
 };
 
