@@ -24,7 +24,7 @@ double area(const Flat& a, const Flat& b) { return a.y * b.z - a.z * b.y; }
 Parameters affine_parameters(const Vec3& off, const Vec3& s, const Vec3& t) {
   const Vec3 n = cross(s, t);
   const double squared = length_squared(n);
-  if (!(squared > 0)) return {0.5, 0.5};
+  if (!(squared > 0)) return {0.5, 1};  // a half without an area: on the other one
   return {dot(off, cross(t, n)) / squared, dot(off, cross(n, s)) / squared};
 }
 

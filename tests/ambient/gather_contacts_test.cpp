@@ -1,6 +1,7 @@
 // What sub-patches gather from close by, along long patches and beside or under what stands on them.
 #include <cmath>
 
+#include "ambient/visible_part.h"
 #include "support/closed_factors.h"
 #include "tests/ambient/gathered.h"
 
@@ -113,6 +114,54 @@ TEST(GatherContacts, ASubPatchPartlyUnderABoxGathersWhereItIsSeen) {
     }
     EXPECT_NEAR(floor.gathered(0, 0), kSends * mean, 0.004 * kSends) << x << ' ' << y;
     EXPECT_NEAR(floor.gathered(0, under), 7, 1e-4) << x << ' ' << y;
+  }
+}
+
+/// Sixteenths of a floor's sub-patch that are in the open; the floor is the first mesh.
+std::uint32_t visible(const std::string& floor, const std::string& lids, std::uint32_t sub_patch = 0) {
+  const AmbientScene scene(black_and_white() + "object floor_\n" + floor + lids);
+  Intersector intersector(scene.geometry);
+  return visible_sixteenths(scene.loaded.scene, scene.geometry, intersector, 0, sub_patch);
+}
+
+/// One of its points is in each of 16 columns, rows and squares.
+TEST(GatherContacts, SixteenPointsTellEverySixteenth) {
+  const std::string floor = facing("+z", "black", {0, 0, 0}, {3.2, 1.6, 0}, "patches 1 1 sub 2 1");
+  for (const std::uint32_t part : {0u, 1u}) {
+    for (std::uint32_t k = 0; k < 16; ++k) {
+      const double at = 0.1 * k, x = 1.6 * part, column = 0.4 * (k % 4), row = 0.4 * (k / 4);
+      EXPECT_EQ(visible(floor, lid("l", {x + at, -0.1, 0}, {x + 1.7, 1.7, 0}), part), k);
+      EXPECT_EQ(visible(floor, lid("l", {-0.1, at, 0}, {3.3, 1.7, 0}), part), k);
+      EXPECT_EQ(visible(floor, lid("l", {x + column, row, 0}, {x + column + 0.4, row + 0.4, 0}), part), 15u);
+    }
+  }
+}
+
+/// A place that is a sixteenth wide each way has a point in some of a row of sub-patches, not in all.
+TEST(GatherContacts, PointsDifferFromSubPatchToSubPatch) {
+  const std::string floor = facing("+z", "black", {0, 0, 0}, {6.4, 0.8, 0}, "patches 1 1 sub 8 1");
+  std::uint32_t hidden = 0;
+  for (std::uint32_t k = 0; k < 8; ++k) {
+    hidden += 16 - visible(floor, lid("l", {0.8 * k, 0, 0}, {0.8 * k + 0.05, 0.05, 0}), k);
+  }
+  EXPECT_LT(hidden, 8u);
+}
+
+/// Half of its area is a square in its right angle.
+TEST(GatherContacts, PointsOfATriangleAreWithinIt) {
+  const std::string triangle = "tri black 0 0 0  1.6 0 0  0 1.6 0 patches 1 sub 1\n";
+  EXPECT_EQ(visible(triangle, lid("l", {-0.1, -0.1, 0}, {0.8, 0.8, 0})), 8u);
+}
+
+/// Of a strip of 3 mm, narrower than 32 steps of the lattice here, points are in the middle half both ways.
+TEST(GatherContacts, PointsOfAStripAreInItsMiddle) {
+  const std::string far = "object far\n" + facing("-z", "black", {0, 0, 90}, {90, 90, 90});
+  const std::string along_x = facing("+z", "black", {0, 0, 0}, {1.6, 0.003, 0});
+  const std::string along_y = facing("+z", "black", {0, 0, 0}, {0.003, 1.6, 0});
+  for (std::uint32_t k = 0; k < 16; ++k) {
+    const double at = 0.4 + 0.05 * k;
+    EXPECT_EQ(visible(along_x, lid("l", {at, -0.1, 0}, {1.7, 0.1, 0}) + far), k);
+    EXPECT_EQ(visible(along_y, lid("l", {-0.1, at, 0}, {0.1, 1.7, 0}) + far), k);
   }
 }
 

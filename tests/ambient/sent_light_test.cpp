@@ -37,5 +37,13 @@ TEST(SentLight, CarriesAndTheLargestValueAreKept) {
   EXPECT_EQ(SentLight::packed(0), 0);
 }
 
+TEST(SentLight, SaysWhenTheArenaIsTooSmall) {
+  Scene scene;
+  scene.sub_patch_count = 4;
+  const float lx[4] = {1, 1, 1, 1};
+  Arena none(nullptr, 0);
+  EXPECT_FALSE(SentLight().take(scene, 1e-6, 0, DirectLight(), lx, none));
+}
+
 }  // namespace
 }  // namespace shodo

@@ -199,6 +199,26 @@ TEST(SubPatchFinder, FindsEverySubPatchOfConcaveQuads) {
   for (const std::uint32_t m : {at_corner_2, at_corner_0, at_corner_1, at_corner_3}) scene.expect_all_found(m);
 }
 
+/// A side goes there and back, so that half of the quad has no area; sub-patches of the other half.
+TEST(SubPatchFinder, FindsSubPatchesBesideASpike) {
+  Finding scene;
+  const std::uint32_t at_corner_1 = scene.quad({0, 0, 0}, {8, 0, 0}, {4, 0, 0}, {0, 6, 0}, 2, 2, 2, 2);
+  const std::uint32_t at_corner_0 = scene.quad({8, 8, 0}, {4, 8, 0}, {0, 14, 0}, {0, 8, 0}, 2, 2, 2, 2);
+  for (const std::uint32_t m : {at_corner_1, at_corner_0}) scene.mesh(m).cut = true;
+  scene.mesh(at_corner_0).concave = true;
+  scene.start();
+  for (std::uint32_t row = 0; row < 4; ++row) {
+    for (std::uint32_t column = 0; column < 4; ++column) {
+      const std::uint32_t number = 4 * row + column;
+      for (const std::uint32_t m : {at_corner_1, at_corner_0}) {
+        if (m == at_corner_1 ? row <= column : row + column <= 3) continue;
+        const Vec3 middle = sub_patch_piece(scene.scene, scene.scene.meshes[m], number).centre();
+        EXPECT_EQ(scene.at(m, middle).sub_patch, number) << "mesh " << m;
+      }
+    }
+  }
+}
+
 TEST(SubPatchFinder, FindsEverySubPatchOfTriangles) {
   Finding scene;
   scene.triangle({0, 0, 0}, {8, 0, 0}, {0, 6, 0}, 1, 1);
@@ -254,6 +274,45 @@ TEST(SubPatchFinder, FindsThroughTrianglesOfInsertedVertices) {
   scene.expect_all_found(crooked);
 }
 
+/// A parallelogram that is a line in the file, and has triangles as its corners go to the lattice: its first one.
+TEST(SubPatchFinder, FindsASubPatchOfWhatHasAnAreaByRoundingAlone) {
+  Finding scene;
+  const Vec3 s = (0.125 + 19 * 0x1p-24) * Vec3{-1, -3, -7}, t = 0.5 * s;  // exact
+  scene.quad({}, s, s + t, t, 3, 2, 2, 2);
+  scene.start();
+  const PolygonTriangles& polygon = scene.geometry.cells[0];
+  ASSERT_GT(polygon.count, 0u);
+  for (std::uint32_t k = polygon.first; k < polygon.first + polygon.count; ++k) {
+    const Triangle& triangle = scene.geometry.triangles[k];
+    for (const LatticePoint& at : {triangle.a, triangle.b, triangle.c}) {
+      EXPECT_EQ(scene.finder.find(k, at).sub_patch, 0u);
+    }
+  }
+}
+
+/// By rounding, say: as if it were on it.
+TEST(SubPatchFinder, FindsWhatIsBeyondAnEdgeOnItsSubPatch) {
+  Finding scene;
+  scene.quad({0, 0, 0}, {6, 0, 0}, {6, 4, 0}, {0, 4, 0}, 3, 2, 2, 2);
+  scene.quad({0, 5, 0}, {6, 5, 0}, {5, 9, 0}, {1, 9, 0}, 3, 2, 2, 2);
+  scene.triangle({0, 10, 0}, {6, 10, 0}, {0, 16, 0}, 3, 2);
+  scene.start();
+  for (std::uint32_t m = 0; m < 3; ++m) {
+    const Piece piece = cell_piece(scene.scene, scene.scene.meshes[m], 0);
+    for (std::uint32_t k = 0; k < 24 * piece.corners; ++k) {
+      const Vec3 &a = piece.corner[k / 24], &b = piece.corner[(k / 24 + 1) % piece.corners];
+      const Vec3 at = a + ((k % 24 + 0.5) / 24) * (b - a), inwards = 0.002 * normalised(piece.centre() - at);
+      const std::uint32_t inside = scene.at(m, at + inwards).sub_patch;
+      EXPECT_EQ(scene.at(m, at - inwards).sub_patch, inside) << "mesh " << m << ", point " << k;
+    }
+  }
+  // Beyond a triangle's longest side, where one of them ends.
+  for (int row = 0; row < 6; ++row) {
+    const Vec3 at = Vec3{6.002 - row, 10.002 + row, 0} - scene.scene.origin;
+    EXPECT_EQ(scene.at(2, at).sub_patch, scene.at(2, at - Vec3{0.01, 0, 0}).sub_patch) << row;
+  }
+}
+
 TEST(SubPatchFinder, WalksOverParallelograms) {
   Finding scene;
   const std::uint32_t flat = scene.quad({0, 0, 0}, {6, 0, 0}, {6, 4, 0}, {0, 4, 0}, 3, 2, 2, 3);
@@ -299,13 +358,20 @@ TEST(SubPatchFinder, WalksNowhereElse) {
   scene.triangle({10, 0, 0}, {10, 5, 1}, {10, 2, 8}, 1, 3);
   scene.mesh(scene.quad({12, 0, 0}, {18, 0, 0}, {14, 2, 0}, {12, 6, 0}, 2, 2)).cut = true;
   scene.grid(3, 2, {{7, 10, 0}, {8, 10, 0}, {10, 10, 0}, {7, 12, 0}, {8, 13, 0}, {10, 12, 0}}, 1, 2);
-  // More columns than a place in a walk can count.
+  // More columns and rows than a place in a walk can count, and as many.
   scene.quad({0, 0, 9}, {9, 0, 9}, {9, 4, 9}, {0, 4, 9}, 16385, 1);
+  scene.quad({0, 0, 8}, {9, 0, 8}, {9, 4, 8}, {0, 4, 8}, 1, 16385);
+  const std::uint32_t columns = scene.quad({0, 5, 9}, {9, 5, 9}, {9, 9, 9}, {0, 9, 9}, 16384, 1);
+  const std::uint32_t rows = scene.quad({0, 5, 8}, {9, 5, 8}, {9, 9, 8}, {0, 9, 8}, 1, 16384);
   const std::uint32_t light = scene.area_light({0, 0, 3}, {0, 2, 3}, {2, 2, 3}, {2, 0, 3});
   scene.start();
-  for (std::uint32_t m = 0; m < 7; ++m) scene.expect_no_walks(m);
+  for (std::uint32_t m = 0; m < 8; ++m) scene.expect_no_walks(m);
   const PolygonTriangles& polygon = scene.geometry.light_triangles[light];
   SubPatchFinder::Walk walk;
+  for (const std::uint32_t most : {columns, rows}) {
+    const std::uint32_t triangle = scene.geometry.cells[scene.geometry.first_cell[most]].first;
+    EXPECT_TRUE(scene.finder.start(triangle, scene.geometry.triangles[triangle].a, {1, 2, 3}, walk));
+  }
   EXPECT_FALSE(scene.finder.start(polygon.first, scene.geometry.triangles[polygon.first].a, {1, 2, 3}, walk));
 }
 

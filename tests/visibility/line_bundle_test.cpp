@@ -44,6 +44,10 @@ void build(HandMadeScene& scene, std::uint64_t seed) {
   scene.quad({1, 1, 0.5}, {1, 2, 0.5}, {2, 2, 0.5}, {2, 1, 0.5});
   scene.quad({3, 1, 1}, {3.5, 1.25, 1}, {3.5, 1.25, 3}, {3, 1, 3});
   scene.quad({1, 3, 1}, {2, 3, 1}, {2, 3.5, 2}, {1, 3, 2});
+  // Sloping along two axes.
+  scene.quad({0.5, 3, 2.5}, {0.5, 3.5, 2.5}, {1, 3.5, 3}, {1, 3, 3});
+  scene.quad({2.5, 3, 2.5}, {3, 3, 2.5}, {3, 3.5, 3.25}, {2.5, 3.5, 3.25});
+  scene.quad({2.5, 2, 2.5}, {3.25, 2.5, 2.5}, {3.25, 2.5, 3}, {2.5, 2, 3});
   scene.mesh(scene.quad({2, 0.5, 3.5}, {3.5, 0.5, 3.5}, {2.5, 1, 3.5}, {2, 2, 3.5})).cut = true;
   scene.grid(3, 3, {{0.5, 0.5, 2}, {1, 0.5, 2.1}, {1.5, 0.5, 2}, {0.5, 1, 2.1}, {1, 1, 2.3}, {1.5, 1, 2.1},
                     {0.5, 1.5, 2}, {1, 1.5, 2.1}, {1.5, 1.5, 2}});
@@ -62,6 +66,10 @@ void build_junctions(HandMadeScene& scene) {
     scene.quad({x, 0, 0}, {x, 0, 2}, {x + 1, 0, 2}, {x + 1, 0, 0});
     scene.triangle({x, 4, 3}, {x + 1, 4, 3}, {x + 0.3, 5, 2.7});
   }
+  // A concave one: sides go straight on after they have turned back.
+  scene.mesh(scene.quad({14, 0, 0}, {17, 6, 0}, {14, 2, 0}, {11, 6, 0})).cut = true;
+  scene.triangle({16.25, 5, 0}, {14.75, 3, 0}, {15.5, 4, 2});
+  scene.triangle({13.25, 3, 0}, {11.75, 5, 0}, {12.5, 4, 2});
   scene.place(kExtent);
 }
 
@@ -116,6 +124,17 @@ struct Facts {
   }
 };
 
+/// Lines through a scene that has been placed.
+struct Sweep {
+  explicit Sweep(HandMadeScene& scene) : facts(scene.geometry) {
+    EXPECT_TRUE(scene.status.done());
+    EXPECT_TRUE(lines.take(scene.geometry, scene.arena, scene.arena));
+  }
+
+  const Facts facts;
+  LineBundle lines;
+};
+
 struct Reported {
   std::uint32_t triangle;
   bool up;
@@ -132,7 +151,7 @@ struct Counts {
 
 class Bundle {
  public:
-  Bundle(const Facts& facts, LineBundle& lines) : facts_(facts), bundle_(lines) {}
+  explicit Bundle(Sweep& sweep) : facts_(sweep.facts), bundle_(sweep.lines) {}
 
   void aim(const Vec3& direction, double spacing, double shift_y, double shift_z) {
     bundle_.aim(direction, spacing, shift_y, shift_z);
@@ -387,10 +406,7 @@ std::vector<Vec3> directions(std::uint64_t seed, int anywhere) {
 /// The scene in bundles of all directions; `least` spacing, or more.
 void expect_as_every_triangle(HandMadeScene& scene, std::uint64_t seed, int anywhere, double least, bool closed,
                               Counts& counts) {
-  ASSERT_TRUE(scene.status.done());
-  const Facts facts(scene.geometry);
-  LineBundle lines;
-  ASSERT_TRUE(lines.take(scene.geometry, scene.arena, scene.arena));
+  Sweep sweep(scene);
   Random random(seed);
   int number = 0;
   for (const Vec3& direction : directions(seed, anywhere)) {
@@ -400,7 +416,7 @@ void expect_as_every_triangle(HandMadeScene& scene, std::uint64_t seed, int anyw
     const double shift_y = number % 3 == 0 ? random.below(2) : random.unit();
     const double shift_z = number % 4 < 3 ? random.below(2) : random.unit();
     ++number;
-    Bundle bundle(facts, lines);
+    Bundle bundle(sweep);
     bundle.aim(direction, spacing, shift_y, shift_z);
     bundle.collect();
     if (::testing::Test::HasFatalFailure()) return;
@@ -461,14 +477,11 @@ TEST(LineBundle, CrossesWhatLiesNearlyAlongTheLines) {
     scene.quad({x, -2000, -2000}, {x, 2000, -2000}, {x, 2000, 2000}, {x, -2000, 2000});
   }
   scene.place(kLatticeHalf);
-  ASSERT_TRUE(scene.status.done());
-  const Facts facts(scene.geometry);
-  LineBundle lines;
-  ASSERT_TRUE(lines.take(scene.geometry, scene.arena, scene.arena));
+  Sweep sweep(scene);
   for (const double slope : {1.0, -1.0, 2.0, 3.0}) {
     for (const double spacing : {600.0, 900.0}) {
       for (int k = 0; k < 4; ++k) {
-        Bundle bundle(facts, lines);
+        Bundle bundle(sweep);
         bundle.aim({1, slope / 1024, 0}, spacing, 0.25 * k, 0.3);
         bundle.collect();
         bundle.check(counts);
@@ -487,13 +500,10 @@ TEST(LineBundle, StaysOnALongRow) {
   scene.quad({-100000, -700, -9000}, {100000, -700, 7002}, {100000, 500, 7102}, {-100000, 500, -8900});
   scene.quad({-90000, -600, 9000}, {-80000, 600, -9000}, {90000, 600, 3000}, {80000, -600, 4000});
   scene.place(kLatticeHalf);
-  ASSERT_TRUE(scene.status.done());
-  const Facts facts(scene.geometry);
-  LineBundle lines;
-  ASSERT_TRUE(lines.take(scene.geometry, scene.arena, scene.arena));
+  Sweep sweep(scene);
   std::size_t most = 0;
   for (const Vec3& direction : {Vec3{0, 0, 1}, Vec3{0.03, 0.01, 1}, Vec3{-0.4, 0.3, -1}, Vec3{0, 0.7, 1}}) {
-    Bundle bundle(facts, lines);
+    Bundle bundle(sweep);
     bundle.aim(direction, 64, 0.1, 0.8);
     bundle.collect();
     bundle.check(counts);
@@ -521,12 +531,9 @@ TEST(LineBundle, CutsATallSceneRowByRow) {
     scene.triangle(high, {x, -200, z + 400}, low);
   }
   scene.place(kLatticeHalf);
-  ASSERT_TRUE(scene.status.done());
-  const Facts facts(scene.geometry);
-  LineBundle lines;
-  ASSERT_TRUE(lines.take(scene.geometry, scene.arena, scene.arena));
+  Sweep sweep(scene);
   for (const Vec3& direction : {Vec3{1, 0, 0}, Vec3{1, 0.1, 0.01}, Vec3{-1, 0.25, 0}}) {
-    Bundle bundle(facts, lines);
+    Bundle bundle(sweep);
     bundle.aim(direction, 64, 0.1, 0.8);
     bundle.collect();
     bundle.check(counts);
@@ -541,15 +548,12 @@ TEST(LineBundle, PassesAPlainRoomTwice) {
   HandMadeScene scene;
   scene.box({0, 0, 0}, {4, 3, 2}, true);
   scene.place(kExtent);
-  ASSERT_TRUE(scene.status.done());
-  const Facts facts(scene.geometry);
-  LineBundle lines;
-  ASSERT_TRUE(lines.take(scene.geometry, scene.arena, scene.arena));
-  EXPECT_EQ(lines.polygons(), 6u);
+  Sweep sweep(scene);
+  EXPECT_EQ(sweep.lines.polygons(), 6u);
   EXPECT_EQ(LineBundle::bytes(scene.geometry).polygons, 6u);
   std::size_t on_edges = 0;
   for (const Vec3& direction : directions(31, 12)) {
-    Bundle bundle(facts, lines);
+    Bundle bundle(sweep);
     bundle.aim(direction, 64, 0, 0.5);
     bundle.collect();
     if (HasFatalFailure()) return;
@@ -573,12 +577,9 @@ TEST(LineBundle, PassesClosedBoxesEvenly) {
     Random random(seed);
     build_boxes(scene, random, 12);
     scene.place(kExtent);
-    ASSERT_TRUE(scene.status.done());
-    const Facts facts(scene.geometry);
-    LineBundle lines;
-    ASSERT_TRUE(lines.take(scene.geometry, scene.arena, scene.arena));
+    Sweep sweep(scene);
     for (const Vec3& direction : directions(seed, 3)) {
-      Bundle bundle(facts, lines);
+      Bundle bundle(sweep);
       bundle.aim(direction, 64, 0.5, 0);
       bundle.collect();
       if (HasFatalFailure()) return;
@@ -595,19 +596,16 @@ TEST(LineBundle, PassesClosedBoxesEvenly) {
 TEST(LineBundle, CrossesPolygonsByTheirProjectedAreas) {
   HandMadeScene scene;
   build(scene, 50);
-  ASSERT_TRUE(scene.status.done());
-  const Facts facts(scene.geometry);
-  LineBundle lines;
-  ASSERT_TRUE(lines.take(scene.geometry, scene.arena, scene.arena));
+  Sweep sweep(scene);
   for (const Vec3& direction : directions(50, 8)) {
-    Bundle bundle(facts, lines);
+    Bundle bundle(sweep);
     bundle.aim(direction, 64, 0.3, 0.6);
     bundle.collect();
     if (HasFatalFailure()) return;
     const Vec3 along = normalised(vector_of(bundle.direction()));
     double area = 0, crossed = 0;
-    for (std::uint32_t t = 0; t < facts.unit.size(); ++t) {
-      area += 0.5 * std::fabs(dot(vector_of(facts.normal(t)), along));
+    for (std::uint32_t t = 0; t < sweep.facts.unit.size(); ++t) {
+      area += 0.5 * std::fabs(dot(vector_of(sweep.facts.normal(t)), along));
     }
     for (const auto& [start, crossings] : bundle.lines()) crossed += static_cast<double>(crossings.size());
     // Borders of a room 64 lines wide; what is seen edge on has no others.
@@ -618,12 +616,9 @@ TEST(LineBundle, CrossesPolygonsByTheirProjectedAreas) {
 TEST(LineBundle, IsTheSameWhenAimedAgain) {
   HandMadeScene scene;
   build(scene, 60);
-  ASSERT_TRUE(scene.status.done());
-  const Facts facts(scene.geometry);
-  LineBundle lines;
-  ASSERT_TRUE(lines.take(scene.geometry, scene.arena, scene.arena));
+  Sweep sweep(scene);
   const auto all = [&] {
-    Bundle bundle(facts, lines);
+    Bundle bundle(sweep);
     bundle.aim({0.3, -0.8, 0.4}, 80, 0.2, 0.9);
     bundle.collect();
     return bundle.lines();
@@ -641,10 +636,35 @@ TEST(LineBundle, IsTheSameWhenAimedAgain) {
   ASSERT_GT(first.size(), 1000u);
   EXPECT_TRUE(same(first, all()));
   // After another direction, left in the middle of a row.
-  lines.aim({1, 0.2, 0.1}, 64, 0, 0);
-  for (int k = 0; k < 20; ++k) ASSERT_TRUE(lines.next_row());
-  ASSERT_TRUE(lines.next_lines());
+  sweep.lines.aim({1, 0.2, 0.1}, 64, 0, 0);
+  for (int k = 0; k < 20; ++k) ASSERT_TRUE(sweep.lines.next_row());
+  ASSERT_TRUE(sweep.lines.next_lines());
   EXPECT_TRUE(same(first, all()));
+}
+
+TEST(LineBundle, CrossesWhatIsFoldedByItsTriangles) {
+  HandMadeScene scene;
+  scene.quad({0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {2, 0, 0});
+  scene.quad({0, 0, 1}, {2, 0, 1}, {2, 0, 1}, {0, 0, 1});  // no area
+  scene.place(kExtent);
+  Sweep sweep(scene);
+  EXPECT_EQ(sweep.lines.polygons(), 2u);
+}
+
+/// Straight through a floor and a ceiling.
+TEST(LineBundle, CountsRowsTimesThePolygonsThatTheyCut) {
+  HandMadeScene scene;
+  scene.quad({0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0});
+  scene.quad({0, 0, 3}, {0, 4, 3}, {4, 4, 3}, {4, 0, 3});
+  scene.place(kExtent);
+  Sweep sweep(scene);
+  std::uint64_t rows = 0;
+  for (int bundle = 1; bundle < 3; ++bundle) {
+    sweep.lines.aim({0, 0, 1}, 64, 0.5, 0.5);
+    while (sweep.lines.next_row()) ++rows;
+    EXPECT_EQ(rows, bundle * 64u);
+    EXPECT_EQ(sweep.lines.tests(), 2 * rows);
+  }
 }
 
 TEST(LineBundle, HasAsManyBytesAsItSays) {
