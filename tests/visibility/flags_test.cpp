@@ -94,6 +94,26 @@ TEST(Flags, AutoChangesNoBitWhereOneSegmentComesFirst) {
   }
 }
 
+/// The middle of a patch bent into a valley stands over it: the segment to the middle of a wall is free, but leaves
+/// behind the patch by its normal. It doesn't speak for those above, which a screen stands in.
+TEST(Flags, AutoChangesNoBitWhereTheFirstSegmentIsFreeButBehindAPatch) {
+  SceneText scene;
+  scene.object();
+  scene.quad({{0, -0.4, 1}, {1, 0.4, 2}, {2, -0.4, 1}, {1, 0.4, 0}}, "patches 1 1");
+  scene.quad({{4, -1.3, 0}, {4, -1.3, 2}, {4, 0.7, 2}, {4, 0.7, 0}}, "patches 1 1");
+  scene.quad({{3, 0.05, 0.2}, {3, 0.05, 1.8}, {3, 0.65, 1.8}, {3, 0.65, 0.2}}, "patches 1 1");
+  scene.line("light lamp point at 1 2 1 intensity 100");
+  Options options;
+  options.segments_first = 1;
+  options.segments_mixed = 1;
+  const LitBits one = lit(scene.text(), FlagMode::kAuto, options);
+  for (const std::uint32_t mixed : {16u, 64u}) {
+    options.segments_mixed = mixed;
+    const Compared both = expect_same(scene.text(), options);
+    EXPECT_LT(std::bit_cast<double>(both.on.ambient[1]), std::bit_cast<double>(one.ambient[1]));  // for the screen
+  }
+}
+
 TEST(Flags, AutoChangesNoBitWhereOneObjectShadowsItself) {
   for (const double angle : {0.0, 0.1, 0.7}) {
     const Compared both = expect_same(self_shadowing_room(angle));
