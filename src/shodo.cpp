@@ -243,9 +243,9 @@ Status solve_maps(Model& model, const Progress& progress) {
                              model.maps);
   }
   if (status.done() && features::gathers(model.options)) {
-    status = gather_illuminance(model.scene, model.geometry, model.direct, model.intersector, model.options, progress,
-                                model.arena, {model.ambient.patch_lx, model.direct.patch_lx}, model.maps.ambient_lx,
-                                model.statistics);
+    status = gather_illuminance(model.scene, model.geometry, model.direct, model.near_light_count, model.intersector,
+                                model.options, progress, model.arena, {model.ambient.patch_lx, model.direct.patch_lx},
+                                model.maps.ambient_lx, model.statistics);
   }
   end_stage(model, MemoryStage::kMap);
   model.solved = status.done();

@@ -360,11 +360,10 @@ struct Bytes {
 
 }  // namespace
 
-Status gather_illuminance(const Scene& scene, const Geometry& geometry, const DirectLight& direct,
+Status gather_illuminance(const Scene& scene, const Geometry& geometry, const DirectLight& direct, std::uint32_t near,
                           Intersector& intersector, const Options& options, const Progress& progress, Arena& arena,
                           GatherRoom room, std::span<float> ambient_lx, Statistics& statistics) {
   const ArenaScratch release(arena);
-  const std::uint32_t near = SentLight::uneven_count(scene, geometry.lattice.step());
   const Bytes bytes(scene, geometry, options, near);
   const bool tight = arena.left() < bytes.with(false, false);
   Arena of_ambient(room.ambient.data(), room.ambient.size_bytes());

@@ -42,12 +42,13 @@ struct GatherRoom {
 };
 
 /// `ambient_lx` holds what was interpolated, [sub_patch * channels + channel], and gets what is gathered by every
-/// sub-patch that is not hidden and whose patch wasn't dropped. Errors: kMemory, kInterrupted; then it is lost.
-Status gather_illuminance(const Scene& scene, const Geometry& geometry, const DirectLight& direct,
+/// sub-patch that is not hidden and whose patch wasn't dropped. `near`: SentLight::uneven_count(). Errors: kMemory,
+/// kInterrupted; then it is lost.
+Status gather_illuminance(const Scene& scene, const Geometry& geometry, const DirectLight& direct, std::uint32_t near,
                           Intersector& intersector, const Options& options, const Progress& progress, Arena& arena,
                           GatherRoom room, std::span<float> ambient_lx, Statistics& statistics);
 
-/// The arena bytes that it needs at least, all of which it gives back; `near`: SentLight::uneven_count().
+/// The arena bytes that it needs at least, all of which it gives back; `near` as above.
 std::uint64_t gather_bytes(const Scene& scene, const Geometry& geometry, const Options& options, std::uint32_t near);
 
 }  // namespace shodo

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ambient/gather.h"
+#include "ambient/sent_light.h"
 #include "tests/ambient/ambient_scene.h"
 
 namespace shodo {
@@ -55,8 +56,9 @@ struct Gathered {
     Intersector intersector(scene.geometry, scene.loaded.scene, flags);
     EXPECT_TRUE(intersector.take_flags(arena));
     const std::size_t before = arena.used();
-    const Status status = gather_illuminance(scene.loaded.scene, scene.geometry, scene.direct, intersector, options,
-                                             progress, arena, room(), lx, scene.statistics);
+    const std::uint32_t near = SentLight::uneven_count(scene.loaded.scene, scene.geometry.lattice.step());
+    const Status status = gather_illuminance(scene.loaded.scene, scene.geometry, scene.direct, near, intersector,
+                                             options, progress, arena, room(), lx, scene.statistics);
     EXPECT_EQ(arena.used(), before);
     return status;
   }

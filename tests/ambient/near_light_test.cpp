@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "ambient/sent_light.h"
+#include "support/solved_scene.h"
 #include "tests/ambient/gathered.h"
 
 namespace shodo {
@@ -213,6 +213,18 @@ TEST(NearLight, WhatASubPatchSendsDependsOnWhere) {
   const Lit room;
   EXPECT_LT(room.errors(false).rms(), 0.004);
   EXPECT_GT(room.errors(true).rms(), 0.1);
+}
+
+/// Through all stages: there is room for what was counted when the scene was loaded.
+TEST(NearLight, SendsSoInAWholeSolution) {
+  Lit room;
+  Options options;
+  options.gather = true;
+  options.gather_lines = 65536;
+  const SolvedScene solved(room.text(""), options);
+  const std::span<const float> lx = solved.model->maps.ambient_lx;
+  room.g.lx.assign(lx.begin(), lx.end());
+  EXPECT_LT(room.errors(false).rms(), 0.004);
 }
 
 /// In one channel, and where the first of three is dark.
