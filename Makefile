@@ -1,6 +1,6 @@
 # shodo: `make` builds build/shodo. Other targets: rooms, pictures, textures, report, test, truth, hard, stability, load,
-# coverage, check-same-bytes, fuzz, soak, mutants, machines, workstation, scaling, memory-cost, check-budgets, install,
-# install-needs, clean.
+# coverage, check-same-bytes, fuzz, soak, mutants, machines, workstation, case-cost, scaling, memory-cost, check-budgets,
+# install, install-needs, clean.
 #
 # Settings, on the command line of make:
 #   CXX=clang++ OPT=-O0   another compiler or optimisation; what was built with other flags is built again
@@ -79,7 +79,8 @@ $(BUILD)/truth: $(TRUTH_OBJECTS) $(BUILD)/libshodo.a
 $(BUILD)/system_faults.so: tests/faults/system_faults.cpp $(BUILD)/flags.stamp
 	$(CXX) $(COMMON_FLAGS) -shared -fPIC $< -ldl -o $@
 
-# Speed against error in both rooms, with the paper's table; workstation.json beside it is read if it is there.
+# Speed against error in both rooms, with the paper's table; what workstation, case-cost, scaling and
+# memory-cost left is told too.
 report: $(BUILD)/shodo
 	@mkdir -p $(OUT)
 	rm -rf $(OUT)/report
@@ -189,6 +190,10 @@ install: $(BUILD)/shodo $(BUILD)/libshodo.a
 workstation:
 	@sh tools/workstation $(WORKSTATION_OPTIONS)
 
+# What the cases of the report cost, in the same seconds: out/case-cost.csv, which the next report takes up.
+case-cost: $(BUILD)/shodo
+	@sh tools/case-cost
+
 # What less memory costs, in the same seconds: out/memory-cost.csv, which the report draws.
 memory-cost:
 	@sh tools/memory-cost $(MEMORY_COST_OPTIONS)
@@ -214,7 +219,7 @@ clean:
 
 FORCE:
 .PHONY: all rooms pictures textures report test truth hard stability load coverage check-same-bytes fuzz soak mutants \
-  machines workstation scaling memory-cost check-budgets install install-needs clean FORCE
+  machines workstation case-cost scaling memory-cost check-budgets install install-needs clean FORCE
 .SECONDARY:
 
 -include $(COVERED_OBJECTS:.o=.d) $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(TEST_OBJECTS:.o=.d) \

@@ -44,7 +44,7 @@ constexpr OptionRule kOptions[] = {
     {"--tiers", "REL|near", kForAll, "near, or a number from 1e-9 to 1",
      "error allowed to a form factor's geometry; near: always the contour integral (0.001)", take_tiers},
     {"--segments", "N,M", kForAll, "two of 1, 16, 64, 256, the second not smaller",
-     "segments a pair, first and where visibility is mixed (16,64)", take_segments},
+     "segments a pair, first and where visibility is mixed: 1, 16, 64 or 256 (16,64)", take_segments},
     {"--scale-rows", "on|off", kForAll, "on or off", "rows of form factors made to sum to 1 where they should (on)",
      [](std::string_view t, Arguments& a) { return on_or_off(t, a.options.scale_rows); }},
     {"--mirror-light", "on|off", kForAll, "on or off", "mirrors send light on, once (off)",

@@ -10,6 +10,7 @@
 #include "cli/output.h"
 #include "cli/report_memory.h"
 #include "cli/report_results.h"
+#include "cli/report_scaling.h"
 #include "cli/run.h"
 
 namespace shodo {
@@ -29,14 +30,24 @@ std::string name_of(const std::string& scene, const std::vector<std::string>& sc
   return std::count_if(scenes.begin(), scenes.end(), same) > 1 ? scene : stem(scene);
 }
 
-/// A file beside the report; empty if there is none.
-std::string file_beside(std::string folder, const std::string& name) {
+/// A file beside the report that a target of make leaves there.
+struct BesideFile {
+  std::string path, target;
+  std::string text;  // empty if there is none
+};
+
+BesideFile file_beside(std::string folder, const std::string& name, const std::string& target) {
   while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
   const std::size_t slash = folder.rfind('/');
-  SceneFiles file((slash == std::string::npos ? "" : folder.substr(0, slash + 1)) + name);
+  const std::string path = (slash == std::string::npos ? "" : folder.substr(0, slash + 1)) + name;
+  SceneFiles file(path);
   std::string_view text;
   FileError error;
-  return file.read_top(text, error) ? std::string(text) : "";
+  return {path, target, file.read_top(text, error) ? std::string(text) : ""};
+}
+
+void warn_unless(bool understood, const BesideFile& file, Run& run) {
+  if (!understood) run.warn(file.path + ": not as make " + file.target + " leaves it, so it is left out");
 }
 
 /// One scene's runs: the reference first, then the cases in their order.
@@ -58,17 +69,30 @@ std::vector<ReportJob> jobs_of(const Arguments& arguments, const std::string& sc
   return jobs;
 }
 
-/// Whether the scene loads, fits into the budget and has the camera; the exit status. `mirrors` becomes true if it has
-/// any.
+/// Whether the scene loads and has the camera; the exit status. `mirrors` becomes true if it has any.
 int check_scene(const Arguments& arguments, const std::string& scene, bool& mirrors) {
   Arguments one = arguments;
   one.scene = scene;
   Run run(one);
-  if (const int status = run.load_in_budget(); status != 0) return status;
+  if (const int status = run.load_at_any_size(); status != 0) return status;
   if (const int status = run.find_camera(); status != 0) return status;
   run.warn_of_changes();
   for (const Optics& optics : run.model().scene.optics) mirrors = mirrors || optics.mirrors();
   return 0;
+}
+
+/// Whether every run fits into the budget, before minutes are spent; the exit status.
+int check_budget(const std::vector<std::vector<ReportJob>>& scenes, Run& run) {
+  std::uint64_t needed = 0;
+  for (const std::vector<ReportJob>& jobs : scenes) {
+    for (const ReportJob& job : jobs) {
+      std::uint64_t bytes = 0;
+      if (const Status status = smallest_budget(job, bytes); !status.done()) return run.tell(status);
+      needed = std::max(needed, bytes);
+      if (const int status = run.tell_interrupt(); status != 0) return status;
+    }
+  }
+  return needed > run.arguments().memory ? run.refuse_budget(needed) : 0;
 }
 
 bool write_report(const Document& document, OutputFolder& folder, FileError& error) {
@@ -118,15 +142,29 @@ int report(const Arguments& arguments) {
   const std::vector<ReportCase> cases = report_cases(arguments.options, mirrors);
   std::vector<std::vector<ReportJob>> jobs;
   for (const std::string& scene : arguments.scenes) jobs.push_back(jobs_of(arguments, scene, cases));
+  if (const int status = check_budget(jobs, run); status != 0) return status;
   if (const Status status = run_all(jobs, run.watch().shown()); !status.done()) return run.tell(status);
-  const std::string json = file_beside(arguments.output, "workstation.json");
+  const BesideFile seconds = file_beside(arguments.output, "workstation.json", "workstation");
+  const BesideFile counted = file_beside(arguments.output, "case-cost.csv", "case-cost");
+  const BesideFile memory = file_beside(arguments.output, "memory-cost.csv", "memory-cost");
+  CaseCosts costs;
+  warn_unless(costs.read(counted.text), counted, run);
+  std::vector<MemoryCost> memory_cost;
+  warn_unless(memory_costs(memory.text, memory_cost), memory, run);
+  const BesideFile scaling = file_beside(arguments.output, "scaling.csv", "scaling");
+  std::vector<CountedLine> sizes;
+  warn_unless(read_scaling(scaling.text, sizes), scaling, run);
   std::vector<SceneResults> results;
+  bool understood = true;
   for (std::size_t s = 0; s < jobs.size(); ++s) {
-    results.push_back(evaluate(name_of(arguments.scenes[s], arguments.scenes), cases, jobs[s]));
-    results.back().workstation = workstation_seconds(json, stem(arguments.scenes[s]));
+    const std::string room = stem(arguments.scenes[s]);
+    results.push_back(evaluate(name_of(arguments.scenes[s], arguments.scenes), room, cases, jobs[s], costs));
+    understood = workstation_seconds(seconds.text, room, results.back().workstation) && understood;
   }
-  Document document = report_document(results, workstation_options(json));
-  add_memory_chapter(document, memory_costs(file_beside(arguments.output, "memory-cost.csv")));
+  warn_unless(understood, seconds, run);
+  Document document = report_document(results);
+  add_scaling_chapter(document, sizes);
+  add_memory_chapter(document, memory_cost);
   if (!write_report(document, folder, error)) return run.tell(error);
   if (const int status = run.tell_interrupt(); status != 0) return status;
   return folder.commit(error) ? 0 : run.tell(error);

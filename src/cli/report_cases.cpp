@@ -42,6 +42,7 @@ constexpr Line kLines[] = {
     {CaseGroup::kRules, FlagMode::kAuto, {.rule1 = true}},
     {CaseGroup::kRules, FlagMode::kAuto, {.rule2 = true}},
     {CaseGroup::kRules, FlagMode::kAuto, {.rule2_repeated = true}},
+    {CaseGroup::kRules, FlagMode::kAuto, {.rule1 = true, .rule2 = true}},
     {CaseGroup::kRules, FlagMode::kAuto, {.rule3 = true}},
     {CaseGroup::kRules, FlagMode::kAuto, kAllRules},
     {CaseGroup::kRules, FlagMode::kAuto, {.rule1 = true, .rule2_repeated = true, .rule3 = true}},
@@ -58,11 +59,11 @@ constexpr Line kLines[] = {
     {CaseGroup::kBlocks, FlagMode::kAuto, blocks(0.01), 1, 1, 1},
 
     // Sub-patches that gather.
-    {CaseGroup::kGather, FlagMode::kAuto, blocks(0), 1, 0, 0, "256 lines", gather_by<256>},
-    {CaseGroup::kGather, FlagMode::kAuto, blocks(0), 1, 0, 0, "1024 lines", gather_by<1024>},
-    {CaseGroup::kGather, FlagMode::kAuto, blocks(0), 1, 0, 0, "4096 lines", gather_by<4096>},
-    {CaseGroup::kGather, FlagMode::kAuto, blocks(0.001), 1, 0, 0, "1024 lines", gather_by<1024>},
-    {CaseGroup::kGather, FlagMode::kAuto, kNoRules, 1, 0, 0, "1024 lines", gather_by<1024>},
+    {CaseGroup::kGather, FlagMode::kAuto, blocks(0), 1, 0, 0, "gather 256", gather_by<256>},
+    {CaseGroup::kGather, FlagMode::kAuto, blocks(0), 1, 0, 0, "gather 1024", gather_by<1024>},
+    {CaseGroup::kGather, FlagMode::kAuto, blocks(0), 1, 0, 0, "gather 4096", gather_by<4096>},
+    {CaseGroup::kGather, FlagMode::kAuto, blocks(0.001), 1, 0, 0, "gather 1024", gather_by<1024>},
+    {CaseGroup::kGather, FlagMode::kAuto, kNoRules, 1, 0, 0, "gather 1024", gather_by<1024>},
 
     // Segments a pair.
     {CaseGroup::kSegments, FlagMode::kAuto, kNoRules, 1, 1, 1},
@@ -189,6 +190,25 @@ std::string rules_text(const Rules& rules) {
 
 std::string segments_text(const Options& options) {
   return std::to_string(options.segments_first) + "," + std::to_string(options.segments_mixed);
+}
+
+std::string options_text(const Options& options) {
+  const Options defaults;
+  std::string text = "--flags " + std::string(flags_text(options.flags)) + " --rules " + rules_text(options.rules) +
+                     " --refine " + number_text(options.refine) + " --segments " + segments_text(options);
+  const auto add = [&](bool differs, std::string_view name, const std::string& value) {
+    if (differs) text.append(" --").append(name).append(" ").append(value);
+  };
+  add(options.patch_size != defaults.patch_size, "patch", number_text(options.patch_size));
+  add(options.sub_patch_size != defaults.sub_patch_size, "sub-patch", number_text(options.sub_patch_size));
+  add(options.tolerance != defaults.tolerance, "tolerance", number_text(options.tolerance));
+  add(options.tiers != defaults.tiers, "tiers", options.tiers > 0 ? number_text(options.tiers) : "near");
+  add(!options.interpolate, "interpolate", "off");
+  add(!options.scale_rows, "scale-rows", "off");
+  add(options.row_value_bits != defaults.row_value_bits, "row-values", std::to_string(options.row_value_bits));
+  add(options.mirror_light, "mirror-light", "on");
+  add(options.gather, "gather", options.gather_lines == 0 ? "on" : std::to_string(options.gather_lines));
+  return text;
 }
 
 bool same_rules(const Rules& a, const Rules& b) {

@@ -20,7 +20,7 @@ struct ReportCase {
   CaseGroup group = CaseGroup::kFlags;
   Options options;
   double refine = 1;          // patch counts times this, over the base's
-  std::string_view other;     // a setting that the columns don't show; empty: none
+  std::string_view other;     // an option that the columns don't show, without its --; empty: none
 };
 
 /// Every case on top of the settings that the user gave; none twice. The first is flags auto without rules: the base.
@@ -39,6 +39,10 @@ std::string rules_text(const Rules& rules);
 std::string segments_text(const Options& options);
 /// A decimal of at most 15 digits without an exponent, no longer than it must be: "0.5".
 std::string number_text(double value);
+
+/// As the command line takes them: flags, rules, refine and segments always, what else light depends on where it is not
+/// as without options.
+std::string options_text(const Options& options);
 
 bool same_rules(const Rules& a, const Rules& b);
 /// Equal in everything that a case can change.

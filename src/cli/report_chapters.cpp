@@ -12,7 +12,7 @@ namespace {
 
 /// Letters of the costs at which a case is efficient.
 std::string efficient_letters(const CaseResult& result) {
-  constexpr std::string_view kLetters[kCosts] = {"S", "T", "F", "B", "P"};
+  constexpr std::string_view kLetters[kCosts] = {"S", "T", "F", "B", "P", "W"};
   std::string text;
   for (std::uint32_t k = 0; k < kCosts; ++k) {
     if (result.efficient[k]) text += kLetters[k];
@@ -37,6 +37,8 @@ std::vector<Column> case_columns() {
           {"links", "entries stored"},
           {"row_bytes", "rows"},
           {"memory_peak", "memory, peak"},
+          {"instructions", "instructions"},
+          {"workstation_seconds", "seconds, workstation"},
           {"ambient_error", "ambient error"},
           {"ambient_error_99", "the same, best 99 % of the area"},
           {"direct_error", "direct error"},
@@ -65,6 +67,8 @@ std::vector<Cell> case_row(const ReportCase& c, const CaseResult& r) {
           Cell::count(s.links),
           Cell::bytes(s.row_bytes),
           Cell::bytes(s.memory_peak),
+          r.counted ? Cell::count(static_cast<std::uint64_t>(r.counted->instructions)) : Cell{},
+          r.counted ? Cell::real(r.counted->seconds) : Cell{},
           Cell::percent(r.map.ambient),
           Cell::percent(r.map.ambient_99),
           Cell::percent(r.map.direct),
@@ -108,6 +112,8 @@ struct PlotKind {
 
 constexpr std::string_view kAmbientError = "RMS error of the ambient maps, % of the mean illuminance";
 constexpr PlotKind kPlots[] = {
+    {Cost::kSeconds, "seconds", "seconds of the workstation", "seconds of the paper's workstation, all stages",
+     kAmbientError, 100},
     {Cost::kTests, "tests", "triangle tests", "triangle tests for form factors", kAmbientError, 100},
     {Cost::kSegments, "segments", "segments", "segments for form factors", kAmbientError, 100},
     {Cost::kFormFactors, "form-factors", "form factors", "geometric form factors computed", kAmbientError, 100},
@@ -125,14 +131,11 @@ Plot plot_of(const SceneResults& scene, std::size_t number, const PlotKind& kind
   for (std::uint32_t g = 0; g < kCaseGroups; ++g) plot.groups.emplace_back(group_name(static_cast<CaseGroup>(g)));
   for (std::size_t k = 0; k < scene.cases.size(); ++k) {
     const ReportCase& c = scene.cases[k];
-    const CostAndError at = cost_and_error(scene.results[k], kind.cost);
-    if (!(at.cost > 0) || !(at.error > 0)) continue;
-    std::string told = std::to_string(c.number) + ": flags " + std::string(flags_text(c.options.flags)) + ", rules " +
-                       rules_text(c.options.rules) + ", refine " + number_text(c.options.refine) + ", segments " +
-                       segments_text(c.options);
-    if (!c.other.empty()) told.append(", ").append(c.other);
-    plot.points.push_back({at.cost, kind.scale * at.error, c.number, static_cast<std::uint32_t>(c.group),
-                           scene.results[k].efficient[static_cast<std::size_t>(kind.cost)], told});
+    const auto at = cost_and_error(c, scene.results[k], kind.cost);
+    if (!at || !(at->cost > 0) || !(at->error > 0)) continue;
+    plot.points.push_back({at->cost, kind.scale * at->error, c.number, static_cast<std::uint32_t>(c.group),
+                           scene.results[k].efficient[static_cast<std::size_t>(kind.cost)],
+                           std::to_string(c.number) + ": " + options_text(c.options)});
   }
   return plot;
 }
@@ -196,7 +199,7 @@ Table rules_table(const SceneResults& scene) {
   return table;
 }
 
-void add_paper_chapter(Document& document, const std::vector<SceneResults>& scenes, const std::string& options) {
+void add_paper_chapter(Document& document, const std::vector<SceneResults>& scenes) {
   document.heading(2, "1. The paper's table");
   document.paragraph(
       "The paper's figures are seconds on its workstation, without and with its flags (3.1), rules 1 to 3 on. Ours are "
@@ -204,10 +207,11 @@ void add_paper_chapter(Document& document, const std::vector<SceneResults>& scen
       "is one segment against one triangle. Flags: off tests every triangle; auto leaves out only what can't change a "
       "bit; scene takes the flags that the scene file sets, as the paper does.");
   const auto has_seconds = [](const SceneResults& s) { return s.workstation.has_value(); };
-  const bool timed = std::any_of(scenes.begin(), scenes.end(), has_seconds);
+  const auto timed = std::find_if(scenes.begin(), scenes.end(), has_seconds);
   document.paragraph(
-      timed ? "The last column is in seconds of the paper's workstation, counted by make workstation" +
-                  (options.empty() ? std::string() : " with " + options) +
+      timed != scenes.end()
+          ? "The last column is in seconds of the paper's workstation, counted by make workstation" +
+                  (timed->workstation->options.empty() ? "" : " with " + timed->workstation->options) +
                   ": (instructions - floating-point operations) / 10 million + floating-point operations / 1.1 million."
             : std::string("The last column is for seconds of the paper's workstation. They are not there: make "
                           "workstation counts them into workstation.json, which belongs beside the report's folder."));
@@ -237,16 +241,33 @@ void add_speed_chapter(Document& document, const std::vector<SceneResults>& scen
       "of the area have a column of their own.");
   document.paragraph(
       "A case is efficient if no other is both cheaper and better: S in segments, T in tests, F in form factors, B in "
-      "bytes of rows, all of the ambient stage against the ambient error, and P in all tests against the picture. In "
-      "the tables T is set apart; in the plots the efficient cases are ringed and joined. Numbers in the plots are "
-      "cases.");
+      "bytes of rows, all of the ambient stage against the ambient error; P in all tests against the picture; W in "
+      "seconds of the paper's workstation, all stages, against the ambient error. In the tables T is set apart; in the "
+      "plots the efficient cases are ringed and joined. Numbers in the plots are cases.");
+  document.paragraph(
+      "Cases that gather are compared in seconds alone. What the table counts for them beside the segments and tests "
+      "of the form factors before are pieces of lines from one surface to the next and outlines that a row of lines "
+      "cuts: work of another kind, most of it steps of integers, which needs neither form factors nor rows.");
+  const auto counted = [](const SceneResults& s) {
+    return std::any_of(s.results.begin(), s.results.end(), [](const CaseResult& r) { return r.counted.has_value(); });
+  };
+  document.paragraph(
+      std::any_of(scenes.begin(), scenes.end(), counted)
+          ? "Instructions and seconds are those of make case-cost: a whole run but loading, with a picture of 1280 x "
+            "1024 pixels, one sample each, without effects, in 8 MiB, or in what holds all rows where that is more. "
+            "Cases that would have taken too long weren't counted."
+          : "Instructions and seconds of the paper's workstation are not there: make case-cost counts them into "
+            "case-cost.csv, which belongs beside the report's folder.");
   for (std::size_t k = 0; k < scenes.size(); ++k) {
     document.heading(3, scenes[k].name);
     document.paragraph(reference_text(scenes[k]));
     document.blocks.emplace_back(cases_table(scenes[k]));
     document.paragraph("Where the ambient error of case 1 sits, object by object:");
     document.blocks.emplace_back(where_table(scenes[k]));
-    for (const PlotKind& kind : kPlots) document.blocks.emplace_back(plot_of(scenes[k], k + 1, kind));
+    for (const PlotKind& kind : kPlots) {
+      Plot plot = plot_of(scenes[k], k + 1, kind);
+      if (kind.cost != Cost::kSeconds || !plot.points.empty()) document.blocks.emplace_back(std::move(plot));
+    }
   }
 }
 
@@ -258,11 +279,11 @@ void add_rules_chapter(Document& document, const std::vector<SceneResults>& scen
       "Each case against the same case without rules, patch by patch: the largest loss of illuminance on any patch in "
       "any channel, and the area mean (negative: light was gained). The bound of rule 2 is the largest rho_j E_j over "
       "the dropped columns j, E_j the total illuminance that the case finds there, over 1 - the largest reflectance; "
-      "that of rule 1 is the largest ambient illuminance of the emptied rows; together their sum. Both speak of one "
-      "matrix: as soon as a column is dropped no row is scaled up to 1 any more, and what scaling would have added is "
-      "lost on top. So a loss may be above its bound (within bound: no; what the solver may have made wrong of both "
-      "solutions is allowed for); with --scale-rows off it can't. Rule 3 and blocks have an estimated error and no "
-      "bound.");
+      "that of rule 1 is the largest ambient illuminance of the emptied rows; of both together their sum. Both speak "
+      "of one matrix: as soon as a column is dropped no row is scaled up to 1 any more, and what scaling would have "
+      "added is lost on top. So a loss may be above its bound (within bound: no; what the solver may have made wrong "
+      "of both solutions is allowed for); with --scale-rows off it can't. Rule 3 and blocks have an estimated error "
+      "and no bound. Cases that gather aren't here: what their rule lost is the loss of the solution before that.");
   for (const SceneResults& scene : scenes) {
     document.heading(3, scene.name);
     document.blocks.emplace_back(rules_table(scene));
@@ -271,7 +292,7 @@ void add_rules_chapter(Document& document, const std::vector<SceneResults>& scen
 
 }  // namespace
 
-Document report_document(const std::vector<SceneResults>& scenes, const std::string& workstation_options) {
+Document report_document(const std::vector<SceneResults>& scenes) {
   Document document;
   document.title = "shodo: speed against error";
   std::string names;
@@ -279,7 +300,7 @@ Document report_document(const std::vector<SceneResults>& scenes, const std::str
   document.paragraph("Scenes: " + names +
                      ". Everything here is counted or computed, nothing is timed: another run gives the same bytes. "
                      "The tables are there as CSV too, with all digits and with parts of one for percent.");
-  add_paper_chapter(document, scenes, workstation_options);
+  add_paper_chapter(document, scenes);
   add_speed_chapter(document, scenes);
   add_rules_chapter(document, scenes);
   return document;

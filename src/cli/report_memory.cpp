@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/decimal.h"
+#include "cli/report_counts.h"
 
 namespace shodo {
 
@@ -10,43 +10,6 @@ namespace {
 
 constexpr std::string_view kHead =
     "room,options,budget,instructions,floating_point,seconds,rows_kept,rows_recomputed,lit_again,placed_again";
-
-std::string_view next_part(std::string_view& text, char end) {
-  const std::size_t at = text.find(end);
-  const std::string_view part = text.substr(0, at);
-  text.remove_prefix(at == std::string_view::npos ? text.size() : at + 1);
-  return part;
-}
-
-/// Counts are exact up to here.
-constexpr double kLargestCount = 0x1p53;
-
-bool number(std::string_view text, double& value) {
-  const DecimalResult found = parse_decimal(text);
-  value = found.value;
-  return found.error == DecimalError::none && value >= 0 && value <= kLargestCount;
-}
-
-/// Options may hold commas: they are what stands between the first column and the last eight.
-bool parse_line(std::string_view line, MemoryCost& cost) {
-  double values[8] = {};
-  for (std::size_t k = 8; k-- > 0;) {
-    const std::size_t at = line.rfind(',');
-    if (at == std::string_view::npos || !number(line.substr(at + 1), values[k])) return false;
-    line = line.substr(0, at);
-  }
-  cost.room = next_part(line, ',');
-  cost.options = line;
-  cost.budget = values[0];
-  cost.instructions = values[1];
-  cost.floating = values[2];
-  cost.seconds = values[3];
-  cost.rows_kept = values[4];
-  cost.rows_recomputed = values[5];
-  cost.lit_again = values[6] > 0;
-  cost.placed_again = values[7] > 0;
-  return !cost.room.empty() && cost.budget > 0 && cost.instructions > 0;
-}
 
 std::string series_name(const MemoryCost& cost) { return cost.room + ", " + cost.options; }
 
@@ -72,15 +35,18 @@ Table cost_table(const std::vector<MemoryCost>& costs, const std::string& series
 
 }  // namespace
 
-std::vector<MemoryCost> memory_costs(std::string_view csv) {
-  std::vector<MemoryCost> costs;
-  if (next_part(csv, '\n') != kHead) return costs;
-  while (!csv.empty()) {
-    MemoryCost cost;
-    if (!parse_line(next_part(csv, '\n'), cost)) return {};
-    costs.push_back(std::move(cost));
+bool memory_costs(std::string_view csv, std::vector<MemoryCost>& costs) {
+  costs.clear();
+  std::vector<CountedLine> lines;
+  if (!read_counted_lines(csv, kHead, lines)) return false;
+  for (const CountedLine& line : lines) {
+    const std::vector<double>& v = line.values;
+    costs.push_back({line.room, line.options, v[0], v[1], v[2], v[3], v[4], v[5], v[6] > 0, v[7] > 0});
   }
-  return costs;
+  const auto plotted = [](const MemoryCost& cost) { return cost.budget > 0 && cost.instructions > 0; };
+  if (std::all_of(costs.begin(), costs.end(), plotted)) return true;
+  costs.clear();
+  return false;
 }
 
 void add_memory_chapter(Document& document, const std::vector<MemoryCost>& costs) {

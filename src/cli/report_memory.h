@@ -20,8 +20,8 @@ struct MemoryCost {
   bool lit_again = false, placed_again = false;
 };
 
-/// The lines of the file; none if a line isn't as they are.
-std::vector<MemoryCost> memory_costs(std::string_view csv);
+/// The lines of the file. False, and none, if `csv` is not empty and not as `make memory-cost` leaves it.
+bool memory_costs(std::string_view csv, std::vector<MemoryCost>& costs);
 
 /// Nothing if there are no costs.
 void add_memory_chapter(Document& document, const std::vector<MemoryCost>& costs);

@@ -13,8 +13,8 @@ namespace {
 constexpr double kWidth = 620, kHeight = 440;
 constexpr double kLeft = 66, kRight = 16, kTop = 40, kBottom = 84;
 
-constexpr const char* kColours[] = {"#1f4e9c", "#b3261e", "#1b7a3d", "#8a4fb0", "#b56a00", "#5b6470"};
-constexpr std::uint32_t kShapes = 6;
+constexpr const char* kColours[] = {"#1f4e9c", "#b3261e", "#1b7a3d", "#8a4fb0", "#b56a00", "#5b6470", "#0b7285"};
+constexpr std::uint32_t kShapes = 7;
 
 template <class... Values>
 std::string printed(const char* format, Values... values) {
@@ -93,6 +93,7 @@ std::string shape(std::uint32_t group, double size) {
     case 2: return printed("<path d=\"M0 %.1fL%.1f 0L0 %.1fL%.1f 0Z\"/>", -t, t, t, -t);
     case 3: return printed("<path d=\"M0 %.1fL%.1f %.1fL%.1f %.1fZ\"/>", -t, t, r, -t, r);
     case 4: return printed("<path d=\"M0 %.1fL%.1f %.1fL%.1f %.1fZ\"/>", t, t, -r, -t, -r);
+    case 5: return printed("<path d=\"M%.1f 0H%.1fM0 %.1fV%.1f\"/>", -t, t, -t, t);
   }
   return printed("<path d=\"M%.1f %.1fL%.1f %.1fM%.1f %.1fL%.1f %.1f\"/>", -r, -r, r, r, -r, r, r, -r);
 }
@@ -110,33 +111,61 @@ struct Box {
   bool meets(const Box& b) const { return x0 < b.x1 && b.x0 < x1 && y0 < b.y1 && b.y0 < y1; }
 };
 
-/// Numbers stand at the first of twelve places around their point that is free; where none is, the last is taken.
+/// Numbers stand at the first free place around their point: six beside it, then on ever wider rings, where a line
+/// leads to it. Where none is free, the last is taken.
 class Labels {
  public:
   explicit Labels(Box frame) : frame_(frame) {}
 
   void keep_free(double x, double y) { taken_.push_back({x - 5, y - 5, x + 5, y + 5}); }
 
-  std::string place(double x, double y, std::uint32_t number) {
-    const std::string text = std::to_string(number);
-    const double w = 6.2 * static_cast<double>(text.size()), h = 10;
-    constexpr struct {
-      double x, y;
-    } kPlaces[] = {{0.5, -0.5}, {0.5, 0.5}, {-0.5, -0.5}, {-0.5, 0.5}, {0, -0.5}, {0, 0.5},
-                   {0.5, -1.5}, {0.5, 1.5}, {-0.5, -1.5}, {-0.5, 1.5}, {0, -1.5}, {0, 1.5}};
+  struct Label {
+    std::string line, text;  // elements; the line is empty beside the point
+  };
+
+  Label place(double x, double y, std::uint32_t number) {
+    const std::string digits = std::to_string(number);
+    const double w = 6.2 * static_cast<double>(digits.size()), h = 10;
+    constexpr Offset kPlaces[] = {{0.5, -0.5}, {0.5, 0.5}, {-0.5, -0.5}, {-0.5, 0.5}, {0, -0.5}, {0, 0.5}};
     Box box{};
-    for (const auto& p : kPlaces) {
-      const double cx = x + p.x * (w + 12) * (p.y > 1 || p.y < -1 ? 0.6 : 1), cy = y + p.y * (h + 9);
+    bool found = false;
+    const auto take = [&](double cx, double cy) {
       box = {cx - w / 2, cy - h / 2, cx + w / 2, cy + h / 2};
-      const bool inside = box.x0 > frame_.x0 && box.x1 < frame_.x1 && box.y0 > frame_.y0 && box.y1 < frame_.y1;
-      if (inside && std::none_of(taken_.begin(), taken_.end(), [&](const Box& b) { return b.meets(box); })) break;
+      found = is_free(box);
+      return found;
+    };
+    for (const Offset& p : kPlaces) {
+      if (take(x + p.x * (w + 12), y + p.y * (h + 9))) break;
+    }
+    Label label;
+    constexpr Offset kRing[] = {{1, 0},  {0.92, -0.38},  {0.92, 0.38},  {0.71, -0.71},  {0.71, 0.71},  {0.38, -0.92},
+                                {-1, 0}, {-0.92, -0.38}, {-0.92, 0.38}, {-0.71, -0.71}, {-0.71, 0.71}, {0.38, 0.92},
+                                {0, -1}, {-0.38, -0.92}, {0, 1},        {-0.38, 0.92}};
+    constexpr double kRadii[] = {26, 38, 50, 62, 74, 86};
+    for (const double radius : kRadii) {
+      for (const Offset& p : kRing) {
+        if (found || !take(x + radius * p.x, y + radius * p.y)) continue;
+        const double to = (radius - 8) / radius;
+        label.line = printed("<path d=\"M%.1f %.1fL%.1f %.1f\"/>\n", x + 4 * p.x, y + 4 * p.y, x + to * radius * p.x,
+                             y + to * radius * p.y);
+      }
     }
     taken_.push_back(box);
-    return printed("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>\n", (box.x0 + box.x1) / 2,
-                   box.y1 - 1.2, text.c_str());
+    label.text = printed("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>\n", (box.x0 + box.x1) / 2,
+                         box.y1 - 1.2, digits.c_str());
+    return label;
   }
 
  private:
+  struct Offset {
+    double x, y;
+  };
+
+  bool is_free(const Box& box) const {
+    return box.x0 > frame_.x0 && box.x1 < frame_.x1 && box.y0 > frame_.y0 && box.y1 < frame_.y1 &&
+           std::none_of(taken_.begin(), taken_.end(), [&](const Box& b) { return b.meets(box); });
+  }
+
   Box frame_;
   std::vector<Box> taken_;
 };
@@ -215,12 +244,16 @@ class Drawing {
         out_ += printed("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"8\" fill=\"none\" stroke=\"#222\"/>\n", px(p.x), py(p.y));
       out_ += mark(p.group, px(p.x), py(p.y), p.told);
     }
-    out_ += "<g font-size=\"10\" paint-order=\"stroke\" stroke=\"#fff\" stroke-width=\"2.5\" "
-            "stroke-linejoin=\"round\">\n";
+    std::string lines, texts;
     for (const PlotPoint& p : plot_.points) {
-      if (p.number != 0) out_ += labels.place(px(p.x), py(p.y), p.number);
+      if (p.number == 0) continue;
+      const Labels::Label label = labels.place(px(p.x), py(p.y), p.number);
+      lines += label.line;
+      texts += label.text;
     }
-    out_ += "</g>\n";
+    out_ += "<g stroke=\"#222\" stroke-opacity=\".6\" stroke-width=\".7\">\n" + lines +
+            "</g>\n<g font-size=\"10\" paint-order=\"stroke\" stroke=\"#fff\" stroke-width=\"2.5\" "
+            "stroke-linejoin=\"round\">\n" + texts + "</g>\n";
   }
 
   void draw_legend() {
@@ -231,7 +264,7 @@ class Drawing {
       if (std::none_of(plot_.points.begin(), plot_.points.end(), in_group)) continue;
       out_ += mark(group, x, y, "");
       words(x + 9, y + 4, "start", plot_.groups[group]);
-      x += 24 + 5.4 * static_cast<double>(plot_.groups[group].size());
+      x += 26 + 5.9 * static_cast<double>(plot_.groups[group].size());
     }
     if (std::none_of(plot_.points.begin(), plot_.points.end(), [](const PlotPoint& p) { return p.efficient; })) return;
     out_ += printed("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"6\" fill=\"none\" stroke=\"#222\"/>\n", x, y);

@@ -18,30 +18,41 @@ std::size_t twin(const std::vector<ReportCase>& cases, const ReportCase& one, Fl
 
 bool has_rules(const Options& options) { return !same_rules(options.rules, Rules{}); }
 
-void mark_efficient(std::vector<CaseResult>& results) {
+void mark_efficient(SceneResults& scene) {
   for (std::uint32_t k = 0; k < kCosts; ++k) {
     std::vector<CostAndError> points;
-    for (const CaseResult& r : results) points.push_back(cost_and_error(r, static_cast<Cost>(k)));
+    std::vector<std::size_t> of;
+    for (std::size_t c = 0; c < scene.cases.size(); ++c) {
+      const auto point = cost_and_error(scene.cases[c], scene.results[c], static_cast<Cost>(k));
+      if (!point) continue;
+      points.push_back(*point);
+      of.push_back(c);
+    }
     const std::vector<bool> marks = efficient(points);
-    for (std::size_t c = 0; c < results.size(); ++c) results[c].efficient[k] = marks[c];
+    for (std::size_t p = 0; p < points.size(); ++p) scene.results[of[p]].efficient[k] = marks[p];
   }
 }
 
 }  // namespace
 
-CostAndError cost_and_error(const CaseResult& result, Cost cost) {
+std::optional<CostAndError> cost_and_error(const ReportCase& one, const CaseResult& result, Cost cost) {
   const Statistics& s = result.statistics;
+  if (one.options.gathers() && cost != Cost::kSeconds) return {};
+  const auto at = [](auto count, double error) { return CostAndError{static_cast<double>(count), error}; };
   switch (cost) {
-    case Cost::kSegments: return {static_cast<double>(s.segments_ambient), result.map.ambient};
-    case Cost::kTests: return {static_cast<double>(s.tests_ambient), result.map.ambient};
-    case Cost::kFormFactors: return {static_cast<double>(s.form_factors_computed), result.map.ambient};
-    case Cost::kBytes: return {static_cast<double>(s.row_bytes), result.map.ambient};
-    case Cost::kTestsPicture: return {static_cast<double>(s.tests_direct + s.tests_ambient), result.picture.mean};
+    case Cost::kSegments: return at(s.segments_ambient, result.map.ambient);
+    case Cost::kTests: return at(s.tests_ambient, result.map.ambient);
+    case Cost::kFormFactors: return at(s.form_factors_computed, result.map.ambient);
+    case Cost::kBytes: return at(s.row_bytes, result.map.ambient);
+    case Cost::kTestsPicture: return at(s.tests_direct + s.tests_ambient, result.picture.mean);
+    case Cost::kSeconds: break;
   }
-  return {};
+  if (!result.counted) return {};
+  return at(result.counted->seconds, result.map.ambient);
 }
 
-SceneResults evaluate(std::string name, std::vector<ReportCase> cases, std::vector<ReportJob>& jobs) {
+SceneResults evaluate(std::string name, const std::string& room, std::vector<ReportCase> cases,
+                      std::vector<ReportJob>& jobs, const CaseCosts& costs) {
   SceneResults scene;
   scene.name = std::move(name);
   const ReportJob& reference = jobs.front();
@@ -58,8 +69,9 @@ SceneResults evaluate(std::string name, std::vector<ReportCase> cases, std::vect
     result.statistics = job.statistics;
     result.map = map_error(truth, bring_to(job.maps, base), scene.mean_lx);
     result.picture = picture_error(reference.picture, job.picture);
+    result.counted = costs.find(room, options_text(cases[k].options));
     const std::size_t plain = twin(cases, cases[k], cases[k].options.flags, Rules{});
-    if (has_rules(cases[k].options) && plain < cases.size()) {
+    if (has_rules(cases[k].options) && !cases[k].options.gathers() && plain < cases.size()) {
       result.loss = rule_loss(jobs[plain + 1].patches, job.patches, cases[k].options.rules);
       result.loss->solver_lx = result.loss->brightest_lx * (job.statistics.solution_bound +
                                                             jobs[plain + 1].statistics.solution_bound);
@@ -73,7 +85,7 @@ SceneResults evaluate(std::string name, std::vector<ReportCase> cases, std::vect
     scene.results.push_back(result);
   }
   scene.cases = std::move(cases);
-  mark_efficient(scene.results);
+  mark_efficient(scene);
   jobs.clear();
   return scene;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/report_cases.h"
+#include "cli/report_counts.h"
 #include "cli/report_document.h"
 #include "cli/report_error.h"
 #include "cli/report_run.h"
@@ -13,16 +14,17 @@
 
 namespace shodo {
 
-/// What a case is dear in. kTestsPicture goes with the picture's error and all tests, the others with the error of the
-/// ambient maps and the ambient stage's part.
-enum class Cost : std::uint8_t { kSegments, kTests, kFormFactors, kBytes, kTestsPicture };
-inline constexpr std::uint32_t kCosts = 5;
+/// What a case is dear in. kTestsPicture goes with the picture's error and all tests, kSeconds with the error of the
+/// ambient maps and all stages, the others with that error and the ambient stage's part.
+enum class Cost : std::uint8_t { kSegments, kTests, kFormFactors, kBytes, kTestsPicture, kSeconds };
+inline constexpr std::uint32_t kCosts = 6;
 
 struct CaseResult {
   Statistics statistics;
   MapError map;
   PictureError picture;
-  std::optional<RuleLoss> loss;  // of cases with rules whose twin without rules was run
+  std::optional<CaseCost> counted;
+  std::optional<RuleLoss> loss;  // of cases with rules whose twin without rules was run; a gather's isn't its rule's
   std::size_t without_rules = 0;  // that twin's index
   bool efficient[kCosts] = {};
 };
@@ -46,13 +48,14 @@ struct SceneResults {
   std::optional<WorkstationSeconds> workstation;
 };
 
-/// Abscissa and ordinate of a case in a plot of that cost.
-CostAndError cost_and_error(const CaseResult& result, Cost cost);
+/// Abscissa and ordinate of a case in a plot of that cost. Nothing for a case that wasn't counted, and for one that
+/// gathers but in seconds: its segments are pieces of lines, its tests outlines that a row cuts (doc/gather.md).
+std::optional<CostAndError> cost_and_error(const ReportCase& one, const CaseResult& result, Cost cost);
 
-/// Turns finished runs, the reference's first, into results; empties them as it goes.
-SceneResults evaluate(std::string name, std::vector<ReportCase> cases, std::vector<ReportJob>& jobs);
+/// Turns finished runs, the reference's first, into results; empties them as it goes. `room`: what `costs` call it.
+SceneResults evaluate(std::string name, const std::string& room, std::vector<ReportCase> cases,
+                      std::vector<ReportJob>& jobs, const CaseCosts& costs);
 
-/// `workstation_options`: how the workstation's seconds were counted, if that is known.
-Document report_document(const std::vector<SceneResults>& scenes, const std::string& workstation_options);
+Document report_document(const std::vector<SceneResults>& scenes);
 
 }  // namespace shodo

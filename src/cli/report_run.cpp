@@ -78,24 +78,37 @@ class LoadedScene {
   explicit LoadedScene(const ReportJob& job) : job_(job), files_(job.scene) {}
 
   Status load() {
-    FileError error;
-    if (!files_.read_top(text_, error)) return failure(StatusCode::kFile, error.text);
-    Status status = load_into(job_.memory);
-    if (!job_.takes_more) return status;
-    // Twice as much until it loads; what the rest takes is known then.
-    constexpr std::uint64_t kMost = std::uint64_t{1} << 40;
-    for (std::uint64_t bytes = job_.memory; status.code == StatusCode::kMemory && bytes < kMost;) {
-      bytes = std::max(2 * bytes, status.bytes_needed);
-      status = load_into(bytes);
+    if (!job_.takes_more) {
+      const Status status = read();
+      return status.done() ? load_into(job_.memory) : status;
     }
+    const Status status = load_at_any_size();
     if (!status.done()) return status;
     const std::uint64_t wanted = smallest_memory(*model_) + row_bytes();
     return wanted > memory_->size() ? load_into(wanted) : status;
   }
 
+  /// Into the budget, and twice as much until it loads: what the rest takes is known then.
+  Status load_at_any_size() {
+    Status status = read();
+    if (!status.done()) return status;
+    status = load_into(job_.memory);
+    constexpr std::uint64_t kMost = std::uint64_t{1} << 40;
+    for (std::uint64_t bytes = job_.memory; status.code == StatusCode::kMemory && bytes < kMost;) {
+      bytes = std::max(2 * bytes, status.bytes_needed);
+      status = load_into(bytes);
+    }
+    return status;
+  }
+
   Model& model() { return *model_; }
 
  private:
+  Status read() {
+    FileError error;
+    return files_.read_top(text_, error) ? Status{} : failure(StatusCode::kFile, error.text);
+  }
+
   /// The most that the rows of all pairs can take, blocks included: an entry of at most 12 bytes a pair, and a reserve.
   std::uint64_t row_bytes() const {
     const std::uint64_t n = statistics(*model_).patches;
@@ -142,6 +155,15 @@ Status run_job(ReportJob& job, const Progress& progress) {
 }
 
 }  // namespace
+
+Status smallest_budget(const ReportJob& job, std::uint64_t& bytes) {
+  bytes = 0;
+  if (job.takes_more) return {};
+  LoadedScene scene(job);
+  const Status status = scene.load_at_any_size();
+  if (status.done()) bytes = smallest_memory(scene.model());
+  return status;
+}
 
 Status run_jobs(std::vector<ReportJob>& jobs, bool shown) {
   ReportProgress progress(jobs.size(), shown);

@@ -28,6 +28,9 @@ struct ReportJob {
   std::vector<std::uint8_t> picture;
 };
 
+/// The smallest budget, in bytes, in which the job can be run; 0 for one that takes more by itself. Loads the scene.
+Status smallest_budget(const ReportJob& job, std::uint64_t& bytes);
+
 /// Runs all, the first ones first; stops early if one fails or the user interrupts. The first failure in the order of
 /// the list, kDone if all are done.
 Status run_jobs(std::vector<ReportJob>& jobs, bool shown);

@@ -1,5 +1,7 @@
 #include "cli/report_workstation.h"
 
+#include <algorithm>
+
 #include "base/decimal.h"
 
 namespace shodo {
@@ -11,6 +13,12 @@ constexpr std::string_view kSpace = " \t\r\n";
 std::string_view trimmed(std::string_view text) {
   const std::size_t start = text.find_first_not_of(kSpace);
   return start == std::string_view::npos ? std::string_view() : text.substr(start);
+}
+
+/// Whether every brace is closed: a file cut short is no object.
+bool is_object(std::string_view text) {
+  const auto count = [&](char c) { return std::count(text.begin(), text.end(), c); };
+  return trimmed(text).starts_with('{') && count('{') == count('}');
 }
 
 /// What follows `"name":`; empty if there is none.
@@ -32,22 +40,23 @@ bool number_of(std::string_view object, std::string_view name, double& value) {
 
 }  // namespace
 
-std::optional<WorkstationSeconds> workstation_seconds(std::string_view json, std::string_view room) {
+bool workstation_seconds(std::string_view json, std::string_view room, std::optional<WorkstationSeconds>& seconds) {
+  seconds.reset();
+  if (json.empty()) return true;
+  if (!is_object(json)) return false;
   std::string_view object = value_of(json, room);
-  if (!object.starts_with('{')) return {};
+  if (object.empty()) return true;
+  if (!object.starts_with('{')) return false;
   object = object.substr(0, object.find('}'));
   WorkstationSeconds s;
   if (!number_of(object, "direct", s.direct) || !number_of(object, "form_factors", s.form_factors) ||
       !number_of(object, "solution", s.solution) || !number_of(object, "map", s.map) ||
       !number_of(object, "picture", s.picture) || !number_of(object, "total", s.total))
-    return {};
-  return s;
-}
-
-std::string workstation_options(std::string_view json) {
-  const std::string_view text = value_of(json, "options");
-  if (!text.starts_with('"')) return {};
-  return std::string(text.substr(1, text.find('"', 1) - 1));
+    return false;
+  const std::string_view options = value_of(object, "options");
+  if (options.starts_with('"')) s.options = std::string(options.substr(1, options.find('"', 1) - 1));
+  seconds = std::move(s);
+  return true;
 }
 
 }  // namespace shodo

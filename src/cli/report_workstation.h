@@ -9,12 +9,11 @@ namespace shodo {
 
 struct WorkstationSeconds {
   double direct = 0, form_factors = 0, solution = 0, map = 0, picture = 0, total = 0;
+  std::string options;  // of the program, as they were given; empty if the file doesn't tell
 };
 
-/// Of one room: {"day": {"direct": 1.5, ...}, ...}. Nothing if the text has no such room or lacks one of its numbers.
-std::optional<WorkstationSeconds> workstation_seconds(std::string_view json, std::string_view room);
-
-/// The string under "options" at the top, which says how the rooms were run; empty if there is none.
-std::string workstation_options(std::string_view json);
+/// Of one room: {"day": {"direct": 1.5, ...}, ...}; nothing if the text has no such room. False if it is not empty and
+/// no object, or the room lacks one of its numbers.
+bool workstation_seconds(std::string_view json, std::string_view room, std::optional<WorkstationSeconds>& seconds);
 
 }  // namespace shodo

@@ -49,11 +49,12 @@ class Run {
   void warn(const std::string& text);
   /// What the program did otherwise than the scene says: dropped, moved.
   void warn_of_changes();
+  /// Says how much the budget must be; the exit status.
+  int refuse_budget(std::uint64_t needed);
 
  private:
   int read_scene();
   Status load_into(std::size_t bytes);
-  int refuse_budget(std::uint64_t needed);
   /// Says that more is needed than what was tried; the exit status.
   int refuse_scene(std::uint64_t needed, std::uint64_t tried);
 

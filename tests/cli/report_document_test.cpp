@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <cstring>
 #include <map>
 #include <set>
 #include <sstream>
@@ -9,8 +11,10 @@
 #include <vector>
 
 #include "cli/program.h"
+#include "cli/report_counts.h"
 #include "cli/report_memory.h"
 #include "cli/report_results.h"
+#include "cli/report_scaling.h"
 
 namespace shodo {
 namespace {
@@ -61,6 +65,68 @@ TEST(ReportPlot, RingsAndJoinsTheEfficientPoints) {
   EXPECT_EQ(count_of(svg_text({"p.svg", "none", "x", "y", {}, {}}), "</svg>"), 1u);
 }
 
+/// Places of the numbers: x of their middle and y of their foot.
+std::vector<std::pair<double, double>> number_places(const std::string& svg) {
+  std::vector<std::pair<double, double>> places;
+  std::size_t at = svg.find("<g font-size=\"10\"");
+  const std::size_t end = svg.find("</g>", at);
+  while ((at = svg.find("<text x=\"", at + 1)) < end) {
+    double x = 0, y = 0;
+    if (std::sscanf(svg.c_str() + at, "<text x=\"%lf\" y=\"%lf\"", &x, &y) == 2) places.emplace_back(x, y);
+  }
+  return places;
+}
+
+TEST(ReportPlot, NumbersOfACrowdStandApart) {
+  Plot plot{"p.svg", "title", "x", "y", {"one"}, {}};
+  for (std::uint32_t k = 0; k < 36; ++k)  // as many as a report has cases: six by six, 3 to 4 pixels apart
+    plot.points.push_back({1000 + 12.0 * (k % 6), 1000 + 12.0 * (k / 6), k + 1, 0, false, ""});
+  plot.points.push_back({10000, 10000, 37, 0, false, ""});
+  const std::string svg = svg_text(plot);
+  const auto places = number_places(svg);
+  ASSERT_EQ(places.size(), 37u);
+  for (std::size_t a = 0; a < places.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      const double width = 3 * ((a < 9 ? 1 : 2) + (b < 9 ? 1 : 2));  // half of both: a digit is 6 wide
+      const bool apart = std::abs(places[a].first - places[b].first) > width ||
+                         std::abs(places[a].second - places[b].second) > 9;
+      EXPECT_TRUE(apart) << a + 1 << " " << b + 1;
+    }
+  }
+}
+
+TEST(ReportPlot, EveryGroupHasAMarkOfItsOwn) {
+  Plot plot{"p.svg", "title", "x", "y", {}, {}};
+  for (std::uint32_t g = 0; g < kCaseGroups; ++g) {
+    plot.groups.emplace_back(group_name(static_cast<CaseGroup>(g)));
+    plot.points.push_back({1.0 + g, 1, 0, g, false, "point"});
+  }
+  const std::string svg = svg_text(plot);
+  std::set<std::string> marks;
+  for (std::size_t at = svg.find("</title>", svg.find("<title>point")); at != std::string::npos;
+       at = svg.find("</title>", at + 1))
+    marks.insert(svg.substr(at, svg.find("</g>", at) - at));
+  EXPECT_EQ(marks.size(), kCaseGroups);
+}
+
+TEST(ReportCounts, CostsOfCasesComeFromTheFile) {
+  const std::string head = "room,options,instructions,floating_point,seconds\n";
+  CaseCosts costs;
+  ASSERT_TRUE(costs.read(head + "day,--rules 1,2 --segments 16,64,5000,200,1.5\nevening,--rules none,7,1,0.25\n"));
+  const auto day = costs.find("day", "--rules 1,2 --segments 16,64");
+  ASSERT_TRUE(day.has_value());
+  EXPECT_EQ(day->instructions, 5000);
+  EXPECT_EQ(day->floating, 200);
+  EXPECT_EQ(day->seconds, 1.5);
+  EXPECT_FALSE(costs.find("day", "--rules none").has_value()) << "counted in the other room";
+  EXPECT_TRUE(costs.find("evening", "--rules none").has_value());
+  EXPECT_TRUE(costs.read("")) << "there is none";
+  EXPECT_FALSE(costs.find("evening", "--rules none").has_value());
+  for (const char* line : {"day,none,1,2\n", "day,none,1,2,x\n", ",none,1,2,3\n", "day,none,1,2,-3\n", "\n"})
+    EXPECT_FALSE(costs.read(head + line)) << line;
+  EXPECT_FALSE(costs.read("day,none,1,2,3\n")) << "no head";
+}
+
 const std::string kMemoryCosts =
     "room,options,budget,instructions,floating_point,seconds,rows_kept,rows_recomputed,lit_again,placed_again\n"
     "day,--rules 1,2,600000,900,50,12.5,0,1526,1,1\n"
@@ -68,7 +134,8 @@ const std::string kMemoryCosts =
     "evening,--rules 1,2,700000,400,30,4.5,1500,26,1,0\n";
 
 TEST(ReportMemory, CostsComeFromTheFileOrNot) {
-  const std::vector<MemoryCost> costs = memory_costs(kMemoryCosts);
+  std::vector<MemoryCost> costs;
+  ASSERT_TRUE(memory_costs(kMemoryCosts, costs));
   ASSERT_EQ(costs.size(), 3u);
   EXPECT_EQ(costs[0].room, "day");
   EXPECT_EQ(costs[0].options, "--rules 1,2");
@@ -76,17 +143,23 @@ TEST(ReportMemory, CostsComeFromTheFileOrNot) {
   EXPECT_EQ(costs[0].seconds, 12.5);
   EXPECT_TRUE(costs[0].placed_again && costs[2].lit_again && !costs[2].placed_again);
   EXPECT_EQ(costs[2].rows_recomputed, 26);
-  EXPECT_TRUE(memory_costs("").empty());
-  EXPECT_TRUE(memory_costs("another file\n1,2,3\n").empty());
-  EXPECT_TRUE(memory_costs(kMemoryCosts + "day,none,x,1,1,1,1,1,1,1\n").empty()) << "not a number";
-  EXPECT_TRUE(memory_costs(kMemoryCosts + "1,2,3\n").empty()) << "too few";
+  EXPECT_TRUE(memory_costs("", costs)) << "there is none";
+  EXPECT_TRUE(costs.empty());
+  for (const std::string& broken :
+       {std::string("another file\n1,2,3\n"), kMemoryCosts + "day,none,x,1,1,1,1,1,1,1\n", kMemoryCosts + "1,2,3\n",
+        kMemoryCosts + "day,none,0,1,1,1,1,1,1,1\n"}) {
+    EXPECT_FALSE(memory_costs(broken, costs)) << broken;
+    EXPECT_TRUE(costs.empty()) << broken;
+  }
 }
 
 TEST(ReportMemory, TheChapterHasAPlotAndATableForEachRoom) {
   Document document;
   add_memory_chapter(document, {});
   EXPECT_TRUE(document.blocks.empty());
-  add_memory_chapter(document, memory_costs(kMemoryCosts));
+  std::vector<MemoryCost> costs;
+  memory_costs(kMemoryCosts, costs);
+  add_memory_chapter(document, costs);
   std::size_t tables = 0, points = 0;
   for (const auto& block : document.blocks) {
     if (const Table* table = std::get_if<Table>(&block)) {
@@ -103,18 +176,73 @@ TEST(ReportMemory, TheChapterHasAPlotAndATableForEachRoom) {
 
 TEST(ReportWorkstation, SecondsComeFromTheFileOrNot) {
   const std::string json =
-      "{\"options\": \"--rules blocks\", \"day\": {\"direct\": 1.5, \"form_factors\": 2, \"solution\": 0.25,\n"
-      " \"map\": 0.125, \"picture\": 10, \"total\": 13.875}, \"evening\": {\"direct\": 3}}";
-  const auto day = workstation_seconds(json, "day");
+      "{\"day\": {\"direct\": 1.5, \"form_factors\": 2, \"solution\": 0.25,\n \"map\": 0.125, \"picture\": 10, "
+      "\"total\": 13.875, \"options\": \"--rules blocks\"}, \"evening\": {\"direct\": 3}}\n";
+  std::optional<WorkstationSeconds> day, other;
+  ASSERT_TRUE(workstation_seconds(json, "day", day));
   ASSERT_TRUE(day.has_value());
   EXPECT_EQ(day->direct, 1.5);
   EXPECT_EQ(day->map, 0.125);
   EXPECT_EQ(day->total, 13.875);
-  EXPECT_EQ(workstation_options(json), "--rules blocks");
-  EXPECT_FALSE(workstation_seconds(json, "evening").has_value()) << "not all numbers are there";
-  EXPECT_FALSE(workstation_seconds(json, "night").has_value());
-  EXPECT_FALSE(workstation_seconds("", "day").has_value());
-  EXPECT_FALSE(workstation_seconds("{\"day\": 3}", "day").has_value());
+  EXPECT_EQ(day->options, "--rules blocks");
+  EXPECT_TRUE(workstation_seconds(json, "night", other)) << "another room's file is a good one";
+  EXPECT_FALSE(other.has_value());
+  EXPECT_TRUE(workstation_seconds("", "day", other)) << "there is none";
+  EXPECT_FALSE(other.has_value());
+  EXPECT_FALSE(workstation_seconds(json, "evening", other)) << "not all numbers are there";
+  EXPECT_FALSE(workstation_seconds("{\"day\": 3}", "day", other));
+  EXPECT_FALSE(workstation_seconds("day 3", "day", other));
+  EXPECT_FALSE(workstation_seconds(json.substr(0, json.find(", \"evening")), "night", other)) << "cut short";
+  EXPECT_FALSE(other.has_value());
+}
+
+const std::string kSizes =
+    "room,options,patches,links,segments,tests,row_bytes,instructions\n"
+    "day,--rules blocks,2+ --refine 1,100,1000,50,70,4000,900\n"
+    "day,--rules blocks,2+ --refine 2,400,8000,50,280,64000,1800\n"
+    "evening,--rules blocks,2+ --refine 1,100,1000,50,70,4000,900\n";
+
+TEST(ReportScaling, ExponentsAreThoseOfPowers) {
+  const std::vector<double> n{1, 3, 10, 50}, half{2, 2 * std::sqrt(3.0), 2 * std::sqrt(10.0), 2 * std::sqrt(50.0)};
+  EXPECT_NEAR(fitted_exponent(n, half), 0.5, 1e-12);
+  // By hand: logarithms 0, 1, 2 and 0, 2, 3 of 10: slope 3 / 2.
+  EXPECT_NEAR(fitted_exponent(std::vector<double>{1, 10, 100}, std::vector<double>{1, 100, 1000}), 1.5, 1e-12);
+  EXPECT_EQ(fitted_exponent(std::vector<double>{7}, std::vector<double>{3}), 0) << "one size has no exponent";
+}
+
+TEST(ReportScaling, TheChapterFitsEachRoom) {
+  std::vector<CountedLine> sizes;
+  Document document;
+  ASSERT_TRUE(read_scaling("", sizes));
+  add_scaling_chapter(document, sizes);
+  EXPECT_TRUE(document.blocks.empty());
+  ASSERT_TRUE(read_scaling(kSizes, sizes));
+  add_scaling_chapter(document, sizes);
+  ASSERT_EQ(csv_files(document).size(), 1u);
+  // 4 times the patches: 8, 1, 4, 16 and 2 times the rest.
+  EXPECT_EQ(csv_files(document)[0].text,
+            "scene,patches,links,segments,tests,row_bytes,instructions\n"
+            "\"day, --rules blocks,2+\",100,1000,50,70,4000,900\n"
+            "\"day, --rules blocks,2+\",400,8000,50,280,64000,1800\n"
+            "\"day, --rules blocks,2+\",exponent,1.5,0,1,2,0.5\n"
+            "\"evening, --rules blocks,2+\",100,1000,50,70,4000,900\n"
+            "\"evening, --rules blocks,2+\",exponent,0,0,0,0,0\n");
+  ASSERT_EQ(plot_files(document).size(), 1u);
+  EXPECT_EQ(count_of(plot_files(document)[0].text, "<title>day"), 2u);
+}
+
+TEST(ReportScaling, WithoutInstructionsTestsArePlotted) {
+  std::vector<CountedLine> sizes;
+  std::string none = kSizes;
+  for (const char* count : {",900\n", ",1800\n", ",900\n"}) none.replace(none.find(count), std::strlen(count), ",0\n");
+  ASSERT_TRUE(read_scaling(none, sizes));
+  Document document;
+  add_scaling_chapter(document, sizes);
+  EXPECT_NE(csv_files(document)[0].text.find("exponent,1.5,0,1,2,\n"), std::string::npos);
+  EXPECT_EQ(count_of(plot_files(document)[0].text, "triangle tests"), 1u);
+  EXPECT_FALSE(read_scaling(kSizes + "day,--rules none,100,1000,50,70,4000,0\n", sizes)) << "counted or not";
+  EXPECT_FALSE(read_scaling(kSizes + "day,--rules none,0,1000,50,70,4000,900\n", sizes)) << "no patches";
+  EXPECT_TRUE(sizes.empty());
 }
 
 // ---- The command
@@ -298,6 +426,65 @@ TEST_F(ReportCommand, TakesTheWorkstationsSecondsFromBesideIt) {
   const std::string csv = file_text(folder / "r/paper.csv");
   for (const char* end : {",1.5\n", ",2.5\n", ",0.25\n", ",0.125\n", ",10.75\n", ",15.125\n"})
     EXPECT_EQ(count_of(csv, end), 1u) << end;
+}
+
+TEST_F(ReportCommand, TakesWhatCasesCostFromBesideIt) {
+  const TestFolder folder;
+  folder.write("case-cost.csv", "room,options,instructions,floating_point,seconds\n"
+                                "box,--flags auto --rules none --refine 1 --segments 16,64,5000,200,12.5\n"
+                                "box,--flags auto --rules none --refine 1 --segments 16,64 --gather 1024,500,20,7.5\n");
+  ASSERT_EQ(report(folder, "r").status, 0);
+  const std::string csv = file_text(folder / "r/cases.csv");
+  EXPECT_EQ(count_of(csv, ",5000,12.5,"), 1u);
+  EXPECT_EQ(count_of(csv, ",500,7.5,"), 1u);
+  const std::string svg = file_text(folder / "r/seconds-1.svg");
+  EXPECT_EQ(count_of(svg, "--segments 16,64</title>"), 1u);
+  EXPECT_EQ(count_of(svg, "--gather 1024</title>"), 1u);
+  EXPECT_EQ(count_of(file_text(folder / "r/tests-1.svg"), "--gather"), 0u) << "its tests are of another kind";
+}
+
+TEST_F(ReportCommand, AGathersLossIsNotItsRules) {
+  const TestFolder folder;
+  ASSERT_EQ(report(folder, "r").status, 0);
+  std::set<std::string> gather;
+  for (const std::string& line : lines_of(file_text(folder / "r/cases.csv"))) {
+    if (csv_cells(line)[6].starts_with("gather")) gather.insert(csv_cells(line)[1]);
+  }
+  ASSERT_GE(gather.size(), 2u);
+  const std::vector<std::string> rules = lines_of(file_text(folder / "r/rules.csv"));
+  ASSERT_GT(rules.size(), 5u);
+  for (const std::string& line : rules) EXPECT_FALSE(gather.contains(csv_cells(line)[1])) << line;
+}
+
+TEST_F(ReportCommand, SaysWhatItCannotReadBesideIt) {
+  const TestFolder folder;
+  for (const char* name : {"workstation.json", "memory-cost.csv", "case-cost.csv", "scaling.csv"})
+    folder.write(name, "box: {\n");
+  const Outcome told = report(folder, "r");
+  ASSERT_EQ(told.status, 0) << told.err;
+  for (const char* says :
+       {"workstation.json: not as make workstation leaves it, so it is left out\n",
+        "scaling.csv: not as make scaling leaves it, so it is left out\n",
+        "memory-cost.csv: not as make memory-cost leaves it, so it is left out\n",
+        "case-cost.csv: not as make case-cost leaves it, so it is left out\n"})
+    EXPECT_EQ(count_of(told.err, says), 1u) << told.err;
+  EXPECT_EQ(report(folder, "q", {"--quiet"}).err, "");
+  EXPECT_EQ(file_text(folder / "q/report.md"), file_text(folder / "r/report.md"));
+}
+
+TEST_F(ReportCommand, NamesABudgetThatAllCasesCanDoWith) {
+  const TestFolder folder;
+  const auto with = [&](const std::string& bytes) { return report(folder, "r" + bytes, {"--memory", bytes}); };
+  const Outcome told = with("1");
+  ASSERT_EQ(told.status, 4);
+  unsigned long long bytes = 0;
+  const char* format = "shodo: the memory budget of 1 is too small: expected at least %llu bytes";
+  ASSERT_EQ(std::sscanf(told.err.c_str(), format, &bytes), 1) << told.err;
+  EXPECT_EQ(with(std::to_string(bytes)).status, 0);
+  const Outcome less = with(std::to_string(bytes - 1));
+  EXPECT_EQ(less.status, 4);
+  EXPECT_NE(less.err.find("expected at least " + std::to_string(bytes) + " bytes (--memory "), std::string::npos)
+      << less.err;
 }
 
 TEST_F(ReportCommand, TakesSeveralScenes) {

@@ -261,7 +261,7 @@ Document document_of_losses() {
     if (!same_rules(rules, {})) result.loss = RuleLoss{0, 0, bound_lx, 3, 1, 100, solver_lx};
     scene.results.push_back(result);
   }
-  return report_document({scene}, "");
+  return report_document({scene});
 }
 
 /// What stands between the n-th and the next `separator` of the line.
@@ -363,6 +363,57 @@ TEST(ReportCases, NumbersAreWrittenAsAPersonWould) {
   EXPECT_EQ(number_text(2.3e-4), "0.00023");
   EXPECT_EQ(number_text(1e-12), "0.000000000001");
   EXPECT_EQ(number_text(64), "64");
+}
+
+/// What tools/case-cost makes of the columns of cases.csv.
+TEST(ReportCases, ColumnsTellTheOptionsOfACase) {
+  for (const ReportCase& c : report_cases({}, true)) {
+    std::string told = "--flags " + std::string(flags_text(c.options.flags)) + " --rules " +
+                       rules_text(c.options.rules) + " --refine " + number_text(c.options.refine) + " --segments " +
+                       segments_text(c.options);
+    if (!c.other.empty()) told.append(" --").append(c.other);
+    EXPECT_EQ(options_text(c.options), told) << c.number;
+  }
+}
+
+TEST(ReportCases, OptionsOfTheBaseAreToldToo) {
+  Options base;
+  base.patch_size = 0.25;
+  base.sub_patch_size = 0.125;
+  base.tolerance = 0.001;
+  base.gather = true;
+  EXPECT_EQ(options_text(base),
+            "--flags auto --rules none --refine 1 --segments 16,64 --patch 0.25 --sub-patch 0.125 --tolerance 0.001 "
+            "--gather on");
+}
+
+TEST(ReportCases, OnlySecondsCompareAGatherWithTheRest) {
+  ReportCase one;
+  CaseResult result;
+  result.statistics.segments_ambient = 5;
+  result.statistics.tests_ambient = 7;
+  result.statistics.tests_direct = 2;
+  result.statistics.form_factors_computed = 3;
+  result.statistics.row_bytes = 11;
+  result.map.ambient = 0.5;
+  result.picture.mean = 0.25;
+  const auto cost = [&](Cost of) {
+    const auto at = cost_and_error(one, result, of);
+    return at ? at->cost : -1;
+  };
+  EXPECT_EQ(cost(Cost::kSegments), 5);
+  EXPECT_EQ(cost(Cost::kTests), 7);
+  EXPECT_EQ(cost(Cost::kFormFactors), 3);
+  EXPECT_EQ(cost(Cost::kBytes), 11);
+  EXPECT_EQ(cost(Cost::kTestsPicture), 9);
+  EXPECT_EQ(cost_and_error(one, result, Cost::kTestsPicture)->error, 0.25);
+  EXPECT_EQ(cost(Cost::kSeconds), -1) << "not counted";
+  result.counted = CaseCost{100, 10, 13};
+  EXPECT_EQ(cost(Cost::kSeconds), 13);
+  one.options.gather = true;
+  for (const Cost of : {Cost::kSegments, Cost::kTests, Cost::kFormFactors, Cost::kBytes, Cost::kTestsPicture})
+    EXPECT_EQ(cost(of), -1);
+  EXPECT_EQ(cost(Cost::kSeconds), 13);
 }
 
 TEST(ReportCases, RulesAreNamedAsTheOptionTakesThem) {

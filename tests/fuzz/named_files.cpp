@@ -3,8 +3,10 @@
 #include <string>
 
 #include "cli/image_file.h"
+#include "cli/report_counts.h"
 #include "cli/report_document.h"
 #include "cli/report_memory.h"
+#include "cli/report_scaling.h"
 #include "cli/report_workstation.h"
 #include "cli/value_grid.h"
 #include "fuzz/fuzz.h"
@@ -51,13 +53,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     }
     case 'g': compare(text); break;
-    case 'w':
-      static_cast<void>(workstation_seconds(text, "day"));
-      static_cast<void>(workstation_options(text));
+    case 'w': {
+      std::optional<WorkstationSeconds> seconds;
+      workstation_seconds(text, "day", seconds);
       break;
+    }
     case 'm': {
       Document document;
-      add_memory_chapter(document, memory_costs(text));
+      std::vector<MemoryCost> costs;
+      memory_costs(text, costs);
+      add_memory_chapter(document, costs);
+      CaseCosts().read(text);
+      std::vector<CountedLine> sizes;
+      read_scaling(text, sizes);
+      add_scaling_chapter(document, sizes);
       break;
     }
   }
