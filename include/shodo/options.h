@@ -24,7 +24,7 @@ inline constexpr std::uint32_t kMostGatherLines = 65536;
 struct Options {
   /// Whether sub-patches gather.
   constexpr bool gathers() const {
-    return gather && !rules.rule1 && !rules.rule2 && !rules.rule2_repeated && !rules.rule3;
+    return gather && !mirror_light && !rules.rule1 && !rules.rule2 && !rules.rule2_repeated && !rules.rule3;
   }
 
   FlagMode flags = FlagMode::kAuto;     // lossless; the rules are none (deviation D9)
@@ -40,7 +40,8 @@ struct Options {
   bool scale_rows = true;
   bool interpolate = true;
   bool gather = false;                 // every sub-patch gathers its ambient light (doc/gather.md); not with rules 1,
-                                       // 2, 2+ and 3, which are the paper's, as its interpolation is
+                                       // 2, 2+ and 3, which are the paper's, as its interpolation is, and not light
+                                       // that mirrors send on
   std::uint32_t gather_lines = 0;      // of a sub-patch on average, up to kMostGatherLines; 0: the
                                        // default
   std::uint32_t row_value_bits = 16;   // 16 or 64

@@ -120,11 +120,12 @@ class Words {
     }
   }
 
-  /// Found in vain: the paper's rules have the paper's interpolation.
+  /// Found in vain: the paper's rules have the paper's interpolation, and lines don't follow mirrors.
   void check_gather() {
     const Options& o = arguments_.options;
     if (!o.gather || o.gathers()) return;
-    mistake_ = "--gather works without --rules or with blocks alone, found 1, 2, 2+ or 3 beside it";
+    mistake_ = o.mirror_light ? "--gather works without --mirror-light, found on"
+                              : "--gather works without --rules or with blocks alone, found 1, 2, 2+ or 3 beside it";
   }
 
   void check_difference() {

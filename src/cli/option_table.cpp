@@ -55,7 +55,8 @@ constexpr OptionRule kOptions[] = {
     {"--interpolate", "on|off", kForAll, "on or off", "ambient light interpolated between patches (on)",
      [](std::string_view t, Arguments& a) { return on_or_off(t, a.options.interpolate); }},
     {"--gather", "on|off|N", kForAll, "on, off, or a whole number from 1 to 65536",
-     "every sub-patch gathers its ambient light by N lines on average (on: 1024); not with rules 1, 2, 2+, 3 (off)",
+     "every sub-patch gathers its ambient light by N lines on average (on: 1024); not with rules 1, 2, 2+, 3 nor "
+     "mirror light (off)",
      take_gather},
     {"--row-values", "16|64", kForAll, "16 or 64", "bits of a stored form factor (16)",
      [](std::string_view t, Arguments& a) {

@@ -125,7 +125,8 @@ std::vector<ReportCase> report_cases(const Options& base, bool mirrors) {
   std::vector<ReportCase> cases;
   for (const Line& line : kLines) {
     const Options options = options_of(line, base);
-    if (options.mirror_light != base.mirror_light && !mirrors) continue;
+    if (options.mirror_light != base.mirror_light && (!mirrors || base.gather)) continue;
+    if (line.group == CaseGroup::kGather && !options.gathers()) continue;
     const auto there = [&](const ReportCase& c) { return same_settings(c.options, options); };
     if (std::any_of(cases.begin(), cases.end(), there)) continue;
     const std::uint32_t number = static_cast<std::uint32_t>(cases.size()) + 1;
@@ -207,7 +208,7 @@ std::string options_text(const Options& options) {
   add(!options.scale_rows, "scale-rows", "off");
   add(options.row_value_bits != defaults.row_value_bits, "row-values", std::to_string(options.row_value_bits));
   add(options.mirror_light, "mirror-light", "on");
-  add(options.gather, "gather", options.gather_lines == 0 ? "on" : std::to_string(options.gather_lines));
+  add(options.gathers(), "gather", options.gather_lines == 0 ? "on" : std::to_string(options.gather_lines));
   return text;
 }
 

@@ -328,7 +328,7 @@ TEST(Gather, WorksInTheBytesThatItSaysAndIsRefusedInLess) {
   }
 }
 
-TEST(Gather, ThePapersRulesKeepThePapersInterpolation) {
+TEST(Gather, ThePapersRulesAndMirrorLightKeepThePapersInterpolation) {
   Options options;
   options.gather = true;
   EXPECT_TRUE(options.gathers());
@@ -339,6 +339,8 @@ TEST(Gather, ThePapersRulesKeepThePapersInterpolation) {
     with.rules = {.rule1 = rule == 0, .rule2 = rule == 1, .rule2_repeated = rule == 2, .rule3 = rule == 3};
     EXPECT_FALSE(with.gathers());
   }
+  options.mirror_light = true;
+  EXPECT_FALSE(options.gathers()) << "lines don't follow mirrors";
 }
 
 }  // namespace

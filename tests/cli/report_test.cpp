@@ -328,6 +328,15 @@ TEST(ReportCases, LightOverMirrorsIsACaseWhereThereAreAny) {
   EXPECT_FALSE(reference_options({}).mirror_light);
 }
 
+TEST(ReportCases, NoneGathersLightOverMirrors) {
+  Options base;
+  base.mirror_light = true;
+  for (const ReportCase& c : report_cases(base, true)) EXPECT_FALSE(c.options.gather) << options_text(c.options);
+  base.mirror_light = false;
+  base.gather = true;
+  for (const ReportCase& c : report_cases(base, true)) EXPECT_FALSE(c.options.mirror_light) << options_text(c.options);
+}
+
 TEST(ReportCases, TheReferenceIsNoCoarserThanTheBase) {
   Options base;
   base.refine = 3;

@@ -115,6 +115,7 @@ TEST(CommandLine, EveryMistakeEndsWithStatus2AndOneLineThatNamesIt) {
       {render({"--gather", "64.0"}), "--gather: expected"},
       {render({"--gather", ""}), "--gather: expected"},
       {render({"--gather", "on", "--rules", "1"}), "--gather works without --rules or with blocks alone"},
+      {render({"--mirror-light", "on", "--gather", "on"}), "--gather works without --mirror-light, found on"},
       {render({"--rules", "2+,blocks", "--gather", "64"}), "--gather works without --rules or with blocks alone"},
       {{"check", scene, "--rules", "all", "--gather", "on"}, "--gather works without --rules or with blocks alone"},
       {render({"--row-values", "32"}), "--row-values: expected 16 or 64"},
