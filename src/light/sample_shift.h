@@ -8,7 +8,8 @@
 // which of a cell's two eighths a sample takes differs between the two cells to each side of the middle. Over many
 // sub-patches the mean is the lit area's, whatever is in the way; across a shadow's edge the samples stand at eight
 // distances instead of four. What lies where is a hash and no random number: of the centre's lattice point and the two
-// edges, without signs and without order of the axes.
+// edges, without signs and without order of the axes. Each cell is looked at from the four places that are this one in
+// its quarters: 8 x 8 in all, at sixteen distances.
 // Exact: mirrored and turned by 90 degrees a scene has mirrored and turned samples, and samples are mirror images of
 // each other within a sub-patch, so that the mean of what varies linearly is kept. Approximate: sub-patches on which
 // the first five samples (light/sub_patch_light.h) agree are never looked at closely, so an edge within an eighth of a

@@ -18,6 +18,28 @@ constexpr std::uint32_t kAllSamples = (std::uint32_t{1} << kGridSamples) - 1;
 /// Values of the visible part at most so far apart, and none of them nothing, agree.
 constexpr double kAgree = 0.5;
 
+/// Cuts off what of a quadrilateral is behind an area light, if the light's plane passes between two of its edges.
+void keep_front(const Emitter& light, Piece& piece) {
+  if (piece.corners == 3 || piece.cut) return;
+  double height[4];
+  std::uint32_t behind = 0;
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    height[k] = light.height(piece.corner[k]);
+    if (height[k] < 0) behind |= std::uint32_t{1} << k;
+  }
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    const std::uint32_t next = (k + 1) % 4, over = (k + 2) % 4, last = (k + 3) % 4;
+    if (behind != (std::uint32_t{1} << over | std::uint32_t{1} << last)) continue;
+    const auto cut = [&](std::uint32_t from, std::uint32_t to) {
+      const double at = height[from] / (height[from] - height[to]);
+      piece.corner[to] = piece.corner[from] + at * (piece.corner[to] - piece.corner[from]);
+    };
+    cut(next, over);
+    cut(k, last);
+    return;
+  }
+}
+
 }  // namespace
 
 /// Whether the visible parts disagree. Values that a light doesn't shine on (outside its distribution, behind it) say
@@ -155,7 +177,9 @@ double SubPatch::centre_sees(std::uint32_t l, double shared) {
   return look.tested[0] > 0 ? look.visible(0) : -1;
 }
 
-/// Nothing in the way; each face by the rule that suits its reach. `at_gauss`: what the Gauss points found.
+/// Nothing in the way; each face by the rule that suits its reach. `at_gauss`: what the Gauss points found. The plane
+/// of an area light is the edge of its light: a sub-patch very near, which it cuts, has the mean of the part in front,
+/// times that part.
 Received SubPatch::near_mean(std::uint32_t l, FaceLook& at_gauss) const {
   Received mean;
   const auto add = [&](const ReceiverGroup& group, const FaceLook& look, auto weight_of) {
@@ -165,7 +189,7 @@ Received SubPatch::near_mean(std::uint32_t l, FaceLook& at_gauss) const {
       mean.factor += weight_of(k) * received.factor;
     }
   };
-  double gauss = 0, fine = 0, grid = 0;
+  double gauss = 0, fine = 0, all = 0;
   for (std::uint32_t k = 0; k < kGaussSamples; ++k) {
     gauss += grid_.weight_at(grid_.gauss(k));
     at_gauss.factor[k] = at_gauss.far[k];
@@ -178,11 +202,15 @@ Received SubPatch::near_mean(std::uint32_t l, FaceLook& at_gauss) const {
         [&](std::uint32_t k) { return fine_weight(k) / fine; });
   }
   if (!at_gauss.reaches(FaceReach::kVeryNear)) return mean;
-  for (std::uint32_t k = 0; k < kGridSamples; ++k) grid += grid_.weight(k);
+  Piece lit = piece_;
+  if (sources_.light(l).kind == LightKind::kArea) keep_front(area_emitter(sources_.scene(), l), lit);
+  const PieceGrid grid(lit, kGridCuts, thin_);
+  for (std::uint32_t k = 0; k < kGridSamples; ++k) all += grid.weight(k);
+  all *= length(piece_.vector_area()) / length(lit.vector_area());
   for (std::uint32_t half = 0; half < 2; ++half) {
-    const ReceiverGroup group = grid_half(grid_, half);
+    const ReceiverGroup group = grid_half(grid, half);
     add(group, sources_.factors(l, view_, group, FaceReach::kVeryNear),
-        [&](std::uint32_t k) { return grid_.weight(group.grid_index[k]) / grid; });
+        [&](std::uint32_t k) { return grid.weight(group.grid_index[k]) / all; });
   }
   return mean;
 }

@@ -1,6 +1,7 @@
 // Point lights and suns on a sub-patch: light/sub_patch_light.h says what is asked for.
 #include "light/point_source.h"
 #include "light/sub_patch_work.h"
+#include "visibility/hidden.h"
 
 namespace shodo {
 
@@ -132,8 +133,36 @@ Sample SubPatch::fine_sample(std::uint32_t k) const {
   return at(shifted_ ? grid_.point(k, shift_.in_cell(k)) : grid_.point(k));
 }
 
+/// One of the four places in sample k's cell from which a sun is looked at.
+Sample SubPatch::place_in_cell(std::uint32_t k, std::uint32_t place) const {
+  const PieceGrid::Parameter first = shift_.in_cell(k);
+  return at(grid_.point(k, {(first.s + place % 2) / 2, (first.t + place / 2) / 2}));
+}
+
+/// What of a sun arrives at the cell's visible places: which are hidden is asked where some are dark and some lit.
+Received SubPatch::receive_in_cell(std::uint32_t l, std::uint32_t k) {
+  Received received;
+  double lit = 0;
+  LatticePoint dark[kPlacesInCell];
+  std::uint32_t count = 0;
+  for (std::uint32_t place = 0; place < kPlacesInCell; ++place) {
+    const Sample sample = place_in_cell(k, place);
+    received = sources_.receive(l, receiver_, sample);
+    lit += received.visible;
+    if (!(received.visible > 0)) dark[count++] = sample.lattice;
+  }
+  std::uint32_t places = kPlacesInCell;
+  if (lit > 0 && count > 0) {
+    std::uint32_t hidden = hidden_samples(sources_.intersector(), {dark, count}, receiver_.normal);
+    for (; hidden != 0; hidden &= hidden - 1) --places;
+    sources_.forget_aims();
+  }
+  received.visible = lit / places;
+  return received;
+}
+
 /// Asks for all samples; those next to the corners have answered already. Near a point light the values at the samples
-/// only share out the mean. The sun is looked at from elsewhere in their cells (light/sample_shift.h).
+/// only share out the mean. The sun is looked at from elsewhere in their cells, four times (light/sample_shift.h).
 void SubPatch::sample_finely(std::uint32_t l, const Received* probed, bool near, double mean) {
   const bool elsewhere = sources_.light(l).kind == LightKind::kSun && grid_.corner_count() == 4;
   if (elsewhere && !shifted_) {
@@ -145,9 +174,9 @@ void SubPatch::sample_finely(std::uint32_t l, const Received* probed, bool near,
   for (std::uint32_t k = 0; k < kGridSamples; ++k) {
     std::uint32_t probe = elsewhere ? probes_.count : 1;
     while (probe < probes_.count && probes_.grid_index[probe] != k) ++probe;
-    received[k] = probe < probes_.count
-                      ? probed[probe]
-                      : sources_.receive(l, receiver_, elsewhere ? fine_sample(k) : at(grid_.point(k)), near);
+    received[k] = probe < probes_.count ? probed[probe]
+                  : elsewhere           ? receive_in_cell(l, k)
+                                        : sources_.receive(l, receiver_, at(grid_.point(k)), near);
     weight += grid_.weight(k);
     lux += grid_.weight(k) * received[k].lux;
   }

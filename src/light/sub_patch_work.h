@@ -12,6 +12,9 @@ namespace shodo {
 
 inline constexpr std::uint32_t kMostProbes = 5;
 
+/// From which a sun is looked at in each cell of the grid.
+inline constexpr std::uint32_t kPlacesInCell = 4;
+
 /// The samples of the first look at a point light or sun: the centre, then the corners of the 4 x 4 grid.
 struct Probes {
   Sample sample[kMostProbes];
@@ -70,6 +73,8 @@ class SubPatch {
   [[gnu::noinline]] bool add_from_centre(std::uint32_t l, double shared, EndSet ends);
   void add_uniform(std::uint32_t l, const Received* received, const double* weight, std::uint32_t count);
   [[gnu::noinline]] void sample_finely(std::uint32_t l, const Received* probed, bool near, double mean);
+  Received receive_in_cell(std::uint32_t l, std::uint32_t k);
+  Sample place_in_cell(std::uint32_t k, std::uint32_t place) const;
   Sample fine_sample(std::uint32_t k) const;
   bool weak_point(std::uint32_t l, Received* received);
   bool add_at_centre(std::uint32_t l, const Received& received);

@@ -16,16 +16,16 @@ struct Hashes {
 inline constexpr Hashes kHashes[] = {
     {"box", 0x95e93224079ddf30, 0xaa0995f94a9ec6ac},
     {"sun", 0x9e54c6cd4147ac22, 0x6973181985d668a5},
-    {"shapes", 0x1b77209b5622d367, 0x3dbc97d3f19e1961},
-    {"rules", 0x660a7900a1896902, 0x8dabdffa0d2e1960},
+    {"shapes", 0xc367a3712f3801f7, 0xe410fa696f9d6f0b},
+    {"rules", 0xe16b7d8e207894ab, 0x54a02dc0fbbdd733},
     {"rule2+", 0xae6684bae61bfd1e, 0x02058ee4215183ef},
     {"blocks", 0x58f188843dbe3202, 0x86e971cc73a1a6c2},
     {"planes", 0xb736224681ec12bc, 0x69f4c7a50455a704},
     {"textures", 0xcbdb3cfe3740623d, 0x5804eee79f24b372},
-    {"glass", 0x0634c812b8d70bc2, 0xea9b963b2f0b549d},
-    {"gather", 0x6db934db226b046f, 0x151c34374008fcee},
-    {"panes", 0x3925f996a93ae0f2, 0xed7ad2817d901793},
-    {"day", 0x4ea10208e7bbaf0c, 0x867f02686b237587},
+    {"glass", 0x6cc751323a778a3d, 0x58697b5a63077c42},
+    {"gather", 0x60717a8824becd08, 0x2dc08ce90015848c},
+    {"panes", 0x6e254e90baa5f731, 0x3e05a44b45aac202},
+    {"day", 0x4d17f10317cab793, 0x01f88f56d6b2d7be},
 };
 
 }  // namespace machines
