@@ -256,19 +256,28 @@ class Drawing {
             "stroke-linejoin=\"round\">\n" + texts + "</g>\n";
   }
 
+  /// In two rows where one is too short.
   void draw_legend() {
-    double x = 12;
-    const double y = kHeight - 18;
+    double x = 12, y = kHeight - 28;
+    const auto place = [&](const std::string& text, auto draw_mark) {
+      const double width = 26 + 5.9 * static_cast<double>(text.size());
+      if (x + width > kWidth) {
+        x = 12;
+        y += 18;
+      }
+      draw_mark();
+      words(x + 10, y + 4, "start", text);
+      x += width;
+    };
     for (std::uint32_t group = 0; group < plot_.groups.size(); ++group) {
       const auto in_group = [&](const PlotPoint& p) { return p.group == group; };
       if (std::none_of(plot_.points.begin(), plot_.points.end(), in_group)) continue;
-      out_ += mark(group, x, y, "");
-      words(x + 9, y + 4, "start", plot_.groups[group]);
-      x += 26 + 5.9 * static_cast<double>(plot_.groups[group].size());
+      place(plot_.groups[group], [&] { out_ += mark(group, x, y, ""); });
     }
     if (std::none_of(plot_.points.begin(), plot_.points.end(), [](const PlotPoint& p) { return p.efficient; })) return;
-    out_ += printed("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"6\" fill=\"none\" stroke=\"#222\"/>\n", x, y);
-    words(x + 10, y + 4, "start", "efficient");
+    place("efficient", [&] {
+      out_ += printed("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"6\" fill=\"none\" stroke=\"#222\"/>\n", x, y);
+    });
   }
 
   const Plot& plot_;

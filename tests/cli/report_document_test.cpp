@@ -109,6 +109,25 @@ TEST(ReportPlot, EveryGroupHasAMarkOfItsOwn) {
   EXPECT_EQ(marks.size(), kCaseGroups);
 }
 
+TEST(ReportPlot, TheLegendStaysInside) {
+  Plot plot{"p.svg", "title", "x", "y", {}, {}};
+  for (std::uint32_t g = 0; g < kCaseGroups; ++g) {
+    plot.groups.emplace_back(group_name(static_cast<CaseGroup>(g)));
+    plot.points.push_back({1.0 + g, 1, 0, g, true, "point"});
+  }
+  const std::string svg = svg_text(plot);
+  std::vector<std::string> texts = plot.groups;
+  texts.emplace_back("efficient");
+  for (const std::string& text : texts) {
+    const std::size_t end = svg.find("text-anchor=\"start\">" + text + "</text>");
+    ASSERT_NE(end, std::string::npos) << text;
+    double x = 0, y = 0;
+    ASSERT_EQ(std::sscanf(svg.c_str() + svg.rfind("<text", end), "<text x=\"%lf\" y=\"%lf\"", &x, &y), 2);
+    EXPECT_LE(x + 5.9 * static_cast<double>(text.size()), 620) << text;  // as wide as letters are in the mean
+    EXPECT_LE(y, 440 - 4) << text;
+  }
+}
+
 TEST(ReportCounts, CostsOfCasesComeFromTheFile) {
   const std::string head = "room,options,instructions,floating_point,seconds\n";
   CaseCosts costs;
