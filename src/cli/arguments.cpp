@@ -115,8 +115,18 @@ class Words {
     } else if (arguments_.scene.empty()) {
       mistake_ = std::string(command_->name) + ": expected a scene file, found none";
     } else {
-      check_gather();
+      check_scenes();
+      if (mistake_.empty()) check_gather();
       if (mistake_.empty() && (command_->bit & kForOutput) != 0) check_outputs();
+    }
+  }
+
+  void check_scenes() {
+    const std::vector<std::string>& scenes = arguments_.scenes;
+    for (std::size_t k = 1; k < scenes.size(); ++k) {
+      if (std::find(scenes.begin(), scenes.begin() + static_cast<std::ptrdiff_t>(k), scenes[k]) !=
+          scenes.begin() + static_cast<std::ptrdiff_t>(k))
+        mistake_ = std::string(command_->name) + ": expected each scene once, found " + quoted(scenes[k]) + " twice";
     }
   }
 

@@ -23,6 +23,14 @@ std::string place_of(std::string name) {
   return folder.empty() ? "" : folder + "/" + name.substr(slash + 1);
 }
 
+/// The file behind an output that means what is open already; empty if it is no file.
+std::string file_behind(const std::string& name) {
+  const int descriptor = named_descriptor(name);
+  struct stat found {};
+  if (descriptor < 0 || fstat(descriptor, &found) != 0 || !S_ISREG(found.st_mode)) return "";
+  return real_path("/proc/self/fd/" + std::to_string(descriptor));
+}
+
 }  // namespace
 
 bool outputs_apart(const Arguments& arguments, std::string& mistake) {
@@ -30,8 +38,12 @@ bool outputs_apart(const Arguments& arguments, std::string& mistake) {
   for (const std::string& input : arguments.scenes) read.push_back(place_of(input));
   const bool is_folder = arguments.command == Command::kMap || arguments.command == Command::kReport;
   const std::string folder = is_folder ? place_of(arguments.output) + "/" : "";
-  for (const std::string& name : {arguments.output, arguments.csv, arguments.statistics, arguments.summary}) {
-    const std::string place = name.empty() || name == "-" ? "" : place_of(name);
+  const std::string outputs[] = {arguments.output, arguments.csv, arguments.statistics, arguments.summary};
+  for (const std::string& name : outputs) {
+    if (const std::string file = file_behind(name); !file.empty()) taken.push_back(file);
+  }
+  for (const std::string& name : outputs) {
+    const std::string place = name.empty() || named_descriptor(name) >= 0 ? "" : place_of(name);
     if (place.empty()) continue;
     for (const std::string& other : read) {
       if (other == place) mistake = "the output '" + name + "' is a file that is read";

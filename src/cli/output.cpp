@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <climits>
 #include <cstdlib>
 #include <cstring>
@@ -17,16 +18,21 @@ namespace {
 
 constexpr std::size_t kBufferBytes = 64 * 1024;
 
-/// Where a name leads; the name itself if nothing is there yet.
-std::string followed(const std::string& name) {
-  const std::string path = real_path(name);
-  return path.empty() ? name : path;
-}
-
 /// The folder part of a path with its last slash, and the rest.
 std::string folder_of(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   return slash == std::string::npos ? "" : path.substr(0, slash + 1);
+}
+
+/// Where a name leads; the name itself, or what the link says, if nothing is there yet.
+std::string followed(const std::string& name) {
+  const std::string path = real_path(name);
+  if (!path.empty()) return path;
+  char link[PATH_MAX];
+  const ssize_t length = readlink(name.c_str(), link, sizeof link);
+  if (length <= 0 || length == sizeof link) return name;
+  const std::string to(link, static_cast<std::size_t>(length));
+  return to.front() == '/' ? to : folder_of(name) + to;
 }
 
 /// A name beside `path`, hidden, for mkstemp and mkdtemp; short enough for any file system that took the name itself.
@@ -70,6 +76,19 @@ std::string real_path(const std::string& name) {
   return path == nullptr ? "" : path.get();
 }
 
+int named_descriptor(const std::string& name) {
+  if (name == "-" || name == "/dev/stdout") return STDOUT_FILENO;
+  if (name == "/dev/stderr") return STDERR_FILENO;
+  for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
+    if (!name.starts_with(folder)) continue;
+    int number = 0;
+    const char *from = name.data() + folder.size(), *end = name.data() + name.size();
+    const auto [stopped, wrong] = std::from_chars(from, end, number);
+    if (wrong == std::errc() && stopped == end && *from != '-') return number;
+  }
+  return -1;
+}
+
 bool FileError::set(const std::string& name, int error) {
   if (text.empty()) text = (name == "-" ? "standard output" : name) + ": " + std::strerror(error);
   return false;
@@ -86,6 +105,10 @@ void OutputFile::drop() {
 
 bool OutputFile::probe(FileError& error) {
   if (name_ == "-") return true;
+  if (const int own = named_descriptor(name_); own >= 0) {
+    const int flags = fcntl(own, F_GETFL);
+    return (flags >= 0 && (flags & O_ACCMODE) != O_RDONLY) || error.set(name_, EBADF);
+  }
   struct stat found {};
   if (stat(name_.c_str(), &found) == 0 && !S_ISREG(found.st_mode)) {
     if (S_ISDIR(found.st_mode)) return error.set(name_, EISDIR);
@@ -97,13 +120,14 @@ bool OutputFile::probe(FileError& error) {
 }
 
 bool OutputFile::open(FileError& error) {
-  if (name_ == "-") {
-    descriptor_ = STDOUT_FILENO;
-    return true;
+  if (const int own = named_descriptor(name_); own >= 0) {
+    descriptor_ = own == STDOUT_FILENO ? own : fcntl(own, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    return descriptor_ >= 0 || error.set(name_, errno);
   }
   target_ = followed(name_);
   struct stat found {};
   const bool exists = stat(target_.c_str(), &found) == 0;
+  if (!exists && errno != ENOENT) return error.set(name_, errno);  // too long a name, a link that leads to itself
   if (exists && !S_ISREG(found.st_mode)) {
     descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
     return descriptor_ >= 0 || error.set(name_, errno);
@@ -172,6 +196,10 @@ bool OutputFolder::open(FileError& error) {
     if (stat(".", &here) == 0 && here.st_dev == found.st_dev && here.st_ino == found.st_ino)
       return error.set(name_, EBUSY);
     target_ = followed(target_);
+  } else if (lstat(target_.c_str(), &found) == 0) {
+    return error.set(name_, ENOTDIR);  // a link that leads nowhere: a folder can't take its name
+  } else if (errno != ENOENT) {
+    return error.set(name_, errno);
   }
   std::string pattern = pattern_beside(target_);
   if (mkdtemp(pattern.data()) == nullptr) return error.set(name_, errno);

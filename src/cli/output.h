@@ -1,7 +1,8 @@
 // Files that appear whole or not at all: written under another name beside their own, checked, then renamed.
 //
 // What is there already and is no regular file (a device, a pipe) can't be replaced and is written straight into.
-// "-" is standard output.
+// "-" is standard output. What a name says is open already (/dev/stdout, /dev/fd/7) is written into from where it
+// stands, whatever it is.
 #pragma once
 
 #include <cstddef>
@@ -13,6 +14,9 @@ namespace shodo {
 
 /// The one path of a file or folder, links followed; empty if there is none.
 std::string real_path(const std::string& name);
+
+/// The descriptor that a name means: "-", /dev/stdout, /dev/stderr, /dev/fd/7, /proc/self/fd/7; -1: none of these.
+int named_descriptor(const std::string& name);
 
 /// What went wrong with which file; the first mistake stays. Everything that touches files returns false after one.
 struct FileError {

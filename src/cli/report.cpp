@@ -157,9 +157,9 @@ int report(const Arguments& arguments) {
   std::vector<SceneResults> results;
   bool understood = true;
   for (std::size_t s = 0; s < jobs.size(); ++s) {
-    const std::string room = stem(arguments.scenes[s]);
-    results.push_back(evaluate(name_of(arguments.scenes[s], arguments.scenes), room, cases, jobs[s], costs));
-    understood = workstation_seconds(seconds.text, room, results.back().workstation) && understood;
+    const std::string name = name_of(arguments.scenes[s], arguments.scenes);
+    results.push_back(evaluate(name, cases, jobs[s], costs));
+    understood = workstation_seconds(seconds.text, name, results.back().workstation) && understood;
   }
   warn_unless(understood, seconds, run);
   Document document = report_document(results);

@@ -221,8 +221,8 @@ bool same_settings(const Options& a, const Options& b) {
   return a.flags == b.flags && same_rules(a.rules, b.rules) && a.refine == b.refine &&
          a.segments_first == b.segments_first && a.segments_mixed == b.segments_mixed &&
          a.interpolate == b.interpolate && a.scale_rows == b.scale_rows && a.row_value_bits == b.row_value_bits &&
-         a.tiers == b.tiers && a.mirror_light == b.mirror_light && a.gather == b.gather &&
-         a.gather_lines == b.gather_lines;
+         a.tiers == b.tiers && a.mirror_light == b.mirror_light && a.gathers() == b.gathers() &&
+         (!a.gathers() || a.gather_lines == b.gather_lines);
 }
 
 const ReportCase* find_case(const std::vector<ReportCase>& cases, FlagMode flags, const Rules& rules) {

@@ -266,7 +266,7 @@ void add_speed_chapter(Document& document, const std::vector<SceneResults>& scen
     document.blocks.emplace_back(where_table(scenes[k]));
     for (const PlotKind& kind : kPlots) {
       Plot plot = plot_of(scenes[k], k + 1, kind);
-      if (kind.cost != Cost::kSeconds || !plot.points.empty()) document.blocks.emplace_back(std::move(plot));
+      if (!plot.points.empty()) document.blocks.emplace_back(std::move(plot));
     }
   }
 }

@@ -61,8 +61,7 @@ void add_memory_chapter(Document& document, const std::vector<MemoryCost>& costs
     const auto at = std::find(plot.groups.begin(), plot.groups.end(), series);
     const std::size_t group = static_cast<std::size_t>(at - plot.groups.begin());
     if (at == plot.groups.end()) plot.groups.push_back(series);
-    plot.points.push_back({cost.budget, cost.instructions, static_cast<std::uint32_t>(plot.points.size() + 1),
-                           static_cast<std::uint32_t>(group), false, series});
+    plot.points.push_back({cost.budget, cost.instructions, 0, static_cast<std::uint32_t>(group), false, series});
   }
   document.heading(2, "Less memory");
   document.paragraph(

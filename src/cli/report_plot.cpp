@@ -39,10 +39,10 @@ int floor_of(double x) {
 
 /// "5 k", "0.02": short, exact for 1, 2 and 5 times powers of ten.
 std::string tick_text(double value) {
-  if (value >= 1e9) return printed("%.6g G", value / 1e9);
-  if (value >= 1e6) return printed("%.6g M", value / 1e6);
-  if (value >= 1e3) return printed("%.6g k", value / 1e3);
-  return printed("%.6g", value);
+  if (value >= 1e9) return printed("%.4g G", value / 1e9);
+  if (value >= 1e6) return printed("%.4g M", value / 1e6);
+  if (value >= 1e3) return printed("%.4g k", value / 1e3);
+  return printed("%.4g", value);
 }
 
 /// A logarithmic axis over `length` pixels.
@@ -76,6 +76,10 @@ class Axis {
         if (place >= start_ && place <= start_ + span_) found.push_back({value, step == 1 || span_ < 2.2});
       }
     }
+    const auto labelled = std::count_if(found.begin(), found.end(), [](const Tick& tick) { return tick.labelled; });
+    if (labelled >= 2) return found;
+    found = {{low_, true}};  // too near to each other for round ones
+    if (high_ > low_) found.push_back({high_, true});
     return found;
   }
 

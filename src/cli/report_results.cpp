@@ -51,10 +51,10 @@ std::optional<CostAndError> cost_and_error(const ReportCase& one, const CaseResu
   return at(result.counted->seconds, result.map.ambient);
 }
 
-SceneResults evaluate(std::string name, const std::string& room, std::vector<ReportCase> cases,
-                      std::vector<ReportJob>& jobs, const CaseCosts& costs) {
+SceneResults evaluate(const std::string& name, std::vector<ReportCase> cases, std::vector<ReportJob>& jobs,
+                      const CaseCosts& costs) {
   SceneResults scene;
-  scene.name = std::move(name);
+  scene.name = name;
   const ReportJob& reference = jobs.front();
   scene.camera = std::string(reference.options.camera);
   scene.reference = reference.options;
@@ -69,9 +69,10 @@ SceneResults evaluate(std::string name, const std::string& room, std::vector<Rep
     result.statistics = job.statistics;
     result.map = map_error(truth, bring_to(job.maps, base), scene.mean_lx);
     result.picture = picture_error(reference.picture, job.picture);
-    result.counted = costs.find(room, options_text(cases[k].options));
+    result.counted = costs.find(name, options_text(cases[k].options));
     const std::size_t plain = twin(cases, cases[k], cases[k].options.flags, Rules{});
-    if (has_rules(cases[k].options) && !cases[k].options.gathers() && plain < cases.size()) {
+    const bool gathered = cases[k].options.gathers() || (plain < cases.size() && cases[plain].options.gathers());
+    if (has_rules(cases[k].options) && !gathered && plain < cases.size()) {
       result.loss = rule_loss(jobs[plain + 1].patches, job.patches, cases[k].options.rules);
       result.loss->solver_lx = result.loss->brightest_lx * (job.statistics.solution_bound +
                                                             jobs[plain + 1].statistics.solution_bound);

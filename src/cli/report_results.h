@@ -52,9 +52,9 @@ struct SceneResults {
 /// gathers but in seconds: its segments are pieces of lines, its tests outlines that a row cuts (doc/gather.md).
 std::optional<CostAndError> cost_and_error(const ReportCase& one, const CaseResult& result, Cost cost);
 
-/// Turns finished runs, the reference's first, into results; empties them as it goes. `room`: what `costs` call it.
-SceneResults evaluate(std::string name, const std::string& room, std::vector<ReportCase> cases,
-                      std::vector<ReportJob>& jobs, const CaseCosts& costs);
+/// Turns finished runs, the reference's first, into results; empties them as it goes.
+SceneResults evaluate(const std::string& name, std::vector<ReportCase> cases, std::vector<ReportJob>& jobs,
+                      const CaseCosts& costs);
 
 Document report_document(const std::vector<SceneResults>& scenes);
 

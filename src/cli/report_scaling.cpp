@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "base/elementary.h"
@@ -35,6 +36,10 @@ std::vector<Series> series_of(const std::vector<CountedLine>& sizes) {
 
 bool counted(const Series& series) { return series.values[kInstructions].front() > 0; }
 
+bool different(const std::vector<double>& n) {
+  return std::adjacent_find(n.begin(), n.end(), std::not_equal_to<>()) != n.end();
+}
+
 Table size_table(const Series& series) {
   Table table{"scaling.csv", series.name, {}, {}, {}};
   table.columns = {{"patches", "patches"},   {"links", "entries stored"}, {"segments", "segments"},
@@ -51,7 +56,9 @@ Table size_table(const Series& series) {
   std::vector<Cell>& fit = table.rows.emplace_back(kValues);
   fit[kPatches] = Cell::words("exponent");
   for (std::size_t k = 1; k < columns; ++k)
-    fit[k] = Cell::real(fitted_exponent(series.values[kPatches], series.values[k]));
+    fit[k] = different(series.values[kPatches])
+                 ? Cell::real(fitted_exponent(series.values[kPatches], series.values[k]))
+                 : Cell{};
   return table;
 }
 

@@ -70,6 +70,36 @@ TEST(Files, ASymbolicLinkStaysAndItsFileIsReplaced) {
   EXPECT_EQ(file_text(folder / "real.ppm").substr(0, 2), "P6");
 }
 
+TEST(Files, ALinkThatLeadsNowhereMakesItsFile) {
+  const TestFolder folder;
+  ASSERT_EQ(symlink("new.ppm", (folder / "link.ppm").c_str()), 0);
+  EXPECT_EQ(run(render_sun("link.ppm"), folder.path()).status, 0);
+  struct stat found {};
+  lstat((folder / "link.ppm").c_str(), &found);
+  EXPECT_TRUE(S_ISLNK(found.st_mode));
+  EXPECT_EQ(file_text(folder / "new.ppm").substr(0, 2), "P6");
+}
+
+TEST(Files, NamesOfWhatIsOpenAreWrittenIntoAndNeverReplaced) {
+  const TestFolder folder;
+  const auto shell = [&](const std::string& words) {
+    const std::string program = program_path() + " map " + test_scene("sun.scn") + " -o m --quiet ";
+    const std::string text = "cd " + folder.path() + " && rm -rf m && (echo before; " + program + words +
+                             " || echo refused; echo after) >log 2>&1 7>&1";
+    EXPECT_EQ(std::system(text.c_str()), 0);
+    return lines_of(file_text(folder / "log"));
+  };
+  const std::vector<std::string> plain = shell("--summary -");
+  ASSERT_GT(plain.size(), 3u);
+  EXPECT_EQ(plain.front() + plain.back(), "beforeafter");
+  for (const char* name : {"/dev/stdout", "/dev/stderr", "/dev/fd/1", "/dev/fd/7", "/proc/self/fd/1"})
+    EXPECT_EQ(shell("--summary " + std::string(name)), plain) << name;
+  EXPECT_EQ(shell("--summary /dev/stdout --csv -").size(), shell("--csv -").size() + plain.size() - 2) << "both";
+  EXPECT_TRUE(contains(shell("--summary /dev/fd/9")[1], "/dev/fd/9: Bad file descriptor"));
+  const std::vector<std::string> twice = shell("--csv - --summary log");
+  EXPECT_TRUE(contains(twice[1], "two outputs are one file, found 'log'")) << twice[1];
+}
+
 TEST(Files, ASceneThatIsNotThereIsStatus1) {
   const TestFolder folder;
   for (const Running::Words& words :
@@ -128,13 +158,17 @@ TEST(Files, OutputsThatCannotBeWrittenAreRefusedBeforeTheSceneIsRead) {
                                      {"map", "wrong.scn", "-o", "missing/maps"},
                                      {"map", "wrong.scn", "-o", "full"},
                                      {"map", "wrong.scn", "-o", "file"},
+                                     {"map", "wrong.scn", "-o", "nowhere"},
+                                     {"map", "wrong.scn", "-o", std::string(256, 'm')},
+                                     {"render", "wrong.scn", "-o", std::string(252, 'x') + ".ppm"},
                                      {"map", "wrong.scn", "-o", "."}};
+  ASSERT_EQ(symlink("none", (folder / "nowhere").c_str()), 0);
   for (const Running::Words& words : commands) {
     const Outcome outcome = run(words, folder.path());
     EXPECT_EQ(outcome.status, 1) << testing::PrintToString(words) << outcome.err;
     EXPECT_EQ(lines_of(outcome.err).size(), 1u);
   }
-  EXPECT_EQ(folder.entries(), (Names{"file", "full", "wrong.scn"}));
+  EXPECT_EQ(folder.entries(), (Names{"file", "full", "nowhere", "wrong.scn"}));
 }
 
 TEST(Files, AFolderWithoutWritePermissionIsStatus1) {

@@ -109,6 +109,15 @@ TEST(ReportPlot, EveryGroupHasAMarkOfItsOwn) {
   EXPECT_EQ(marks.size(), kCaseGroups);
 }
 
+TEST(ReportPlot, AnAxisHasTwoNumbersAtLeast) {
+  // Both between two round numbers; and one point alone.
+  const PlotPoint low{123.45, 1.15, 0, 0, false, ""}, high{150, 1.85, 0, 0, false, ""};
+  const std::string svg = svg_text({"p.svg", "t", "x", "y", {"a"}, {low, high}});
+  for (const char* tick : {">123.5<", ">150<", ">1.15<", ">1.85<"}) EXPECT_EQ(count_of(svg, tick), 1u) << tick;
+  const std::string one = svg_text({"p.svg", "t", "x", "y", {"a"}, {low}});
+  for (const char* tick : {">123.5<", ">1.15<"}) EXPECT_EQ(count_of(one, tick), 1u) << tick;
+}
+
 TEST(ReportPlot, TheLegendStaysInside) {
   Plot plot{"p.svg", "title", "x", "y", {}, {}};
   for (std::uint32_t g = 0; g < kCaseGroups; ++g) {
@@ -245,7 +254,7 @@ TEST(ReportScaling, TheChapterFitsEachRoom) {
             "\"day, --rules blocks,2+\",400,8000,50,280,64000,1800\n"
             "\"day, --rules blocks,2+\",exponent,1.5,0,1,2,0.5\n"
             "\"evening, --rules blocks,2+\",100,1000,50,70,4000,900\n"
-            "\"evening, --rules blocks,2+\",exponent,0,0,0,0,0\n");
+            "\"evening, --rules blocks,2+\",exponent,,,,,\n") << "one size has no exponent";
   ASSERT_EQ(plot_files(document).size(), 1u);
   EXPECT_EQ(count_of(plot_files(document)[0].text, "<title>day"), 2u);
 }
@@ -462,6 +471,26 @@ TEST_F(ReportCommand, TakesWhatCasesCostFromBesideIt) {
   EXPECT_EQ(count_of(file_text(folder / "r/tests-1.svg"), "--gather"), 0u) << "its tests are of another kind";
 }
 
+TEST_F(ReportCommand, TwoScenesOfOneNameHaveNoFiguresOfEither) {
+  const TestFolder folder;
+  for (const char* name : {"a", "b"}) {
+    ASSERT_EQ(mkdir((folder / name).c_str(), 0777), 0);
+    folder.write(std::string(name) + "/box.scn", file_text(test_scene(name[0] == 'a' ? "box.scn" : "sun.scn")));
+  }
+  folder.write("case-cost.csv", "room,options,instructions,floating_point,seconds\n"
+                                "box,--flags auto --rules none --refine 1 --segments 16,64,5000,200,12.5\n");
+  const Outcome told =
+      run({"report", folder / "a/box.scn", folder / "b/box.scn", "-o", folder / "r", "--size", "16x16"});
+  ASSERT_EQ(told.status, 0) << told.err;
+  EXPECT_EQ(count_of(file_text(folder / "r/cases.csv"), ",5000,12.5,"), 0u);
+}
+
+TEST_F(ReportCommand, GatheringAsTheBaseIsNotWhatRulesAreComparedWith) {
+  const TestFolder folder;
+  ASSERT_EQ(report(folder, "r", {"--gather", "64"}).status, 0);
+  EXPECT_EQ(file_text(folder / "r/rules.csv").find("\nbox,"), std::string::npos) << "no case without rules and gather";
+}
+
 TEST_F(ReportCommand, AGathersLossIsNotItsRules) {
   const TestFolder folder;
   ASSERT_EQ(report(folder, "r").status, 0);
@@ -527,6 +556,7 @@ TEST_F(ReportCommand, RefusesWhatItCannotDo) {
   } cases[] = {
       {{"report", scene}, 2, "report: expected -o and where the report goes, found nothing"},
       {{"report", "-o", folder / "x"}, 2, "report: expected a scene file, found none"},
+      {{"report", scene, scene, "-o", folder / "x"}, 2, "report: expected each scene once, found '" + scene + "'"},
       {{"report", scene, "-o", "-"}, 2, "-o: expected the name of a folder, found '-'"},
       {{"report", scene, "-o", folder / "x", "--flags", "off"}, 2, "--flags has no meaning for report"},
       {{"report", scene, "-o", folder / "x", "--rules", "none"}, 2, "--rules has no meaning for report"},
