@@ -66,6 +66,10 @@ Reader SceneFiles::reader() {
           this};
 }
 
+std::string SceneFiles::path_of(std::string_view file) const {
+  return scene_.starts_with(file) ? std::string(file) : folder_ + std::string(file);  // a long name may be cut
+}
+
 void SceneFiles::explain(Status& status) const {
   if (status.code != StatusCode::kScene || undecoded_.empty()) return;
   std::snprintf(status.message, sizeof status.message,

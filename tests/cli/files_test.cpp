@@ -145,6 +145,17 @@ TEST(Files, AnIncludedFileIsSoughtInTheTopFilesFolder) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
 }
 
+TEST(Files, AMistakeInAnIncludedFileIsNamedByAPathThatIsThere) {
+  const TestFolder folder;
+  for (const char* name : {"scenes", "scenes/parts"}) ASSERT_EQ(mkdir((folder / name).c_str(), 0777), 0);
+  folder.write("scenes/top.scn", "shodo 1\ninclude parts/part.scn\n");
+  folder.write("scenes/parts/part.scn", "# a part\nquad\n");
+  EXPECT_TRUE(run({"check", "scenes/top.scn"}, folder.path()).err.starts_with("scenes/parts/part.scn:2:"));
+  EXPECT_TRUE(run({"check", "top.scn"}, folder / "scenes").err.starts_with("parts/part.scn:2:"));
+  folder.write("scenes/top.scn", "shodo 1\nquad\n");
+  EXPECT_TRUE(run({"check", "scenes/top.scn"}, folder.path()).err.starts_with("scenes/top.scn:2:"));
+}
+
 TEST(Files, OutputsThatCannotBeWrittenAreRefusedBeforeTheSceneIsRead) {
   const TestFolder folder;
   folder.write("file", "");
