@@ -40,7 +40,7 @@ struct Options {
   bool scale_rows = true;
   bool interpolate = true;
   bool gather = false;                 // every sub-patch gathers its ambient light (doc/gather.md); not with rules 1,
-                                       // 2, 2+ and 3, which are the paper's, as its interpolation is, and not light
+                                       // 2, 2+ and 3, which are the paper's, as its interpolation is, nor with light
                                        // that mirrors send on
   std::uint32_t gather_lines = 0;      // of a sub-patch on average, up to kMostGatherLines; 0: the
                                        // default

@@ -2,6 +2,7 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "cli/output.h"
@@ -40,7 +41,11 @@ bool outputs_apart(const Arguments& arguments, std::string& mistake) {
   const std::string folder = is_folder ? place_of(arguments.output) + "/" : "";
   const std::string outputs[] = {arguments.output, arguments.csv, arguments.statistics, arguments.summary};
   for (const std::string& name : outputs) {
-    if (const std::string file = file_behind(name); !file.empty()) taken.push_back(file);
+    const std::string file = file_behind(name);
+    if (file.empty()) continue;
+    if (std::find(read.begin(), read.end(), file) != read.end())
+      mistake = "the output '" + name + "' is a file that is read";
+    taken.push_back(file);
   }
   for (const std::string& name : outputs) {
     const std::string place = name.empty() || named_descriptor(name) >= 0 ? "" : place_of(name);

@@ -26,13 +26,25 @@ std::string folder_of(const std::string& path) {
 
 /// Where a name leads; the name itself, or what the link says, if nothing is there yet.
 std::string followed(const std::string& name) {
-  const std::string path = real_path(name);
-  if (!path.empty()) return path;
-  char link[PATH_MAX];
-  const ssize_t length = readlink(name.c_str(), link, sizeof link);
-  if (length <= 0 || length == sizeof link) return name;
-  const std::string to(link, static_cast<std::size_t>(length));
-  return to.front() == '/' ? to : folder_of(name) + to;
+  std::string to = name;
+  for (int links = 0; links < 40; ++links) {  // the system follows as many
+    const std::string path = real_path(to);
+    if (!path.empty()) return path;
+    char link[PATH_MAX];
+    const ssize_t length = readlink(to.c_str(), link, sizeof link);
+    if (length <= 0 || length == sizeof link) break;
+    to = (link[0] == '/' ? "" : folder_of(to)) + std::string(link, static_cast<std::size_t>(length));
+  }
+  return to;
+}
+
+/// Standard output or error if that is this file, -1 otherwise.
+int open_already(const struct stat& file) {
+  for (const int descriptor : {STDOUT_FILENO, STDERR_FILENO}) {
+    struct stat found {};
+    if (fstat(descriptor, &found) == 0 && found.st_dev == file.st_dev && found.st_ino == file.st_ino) return descriptor;
+  }
+  return -1;
 }
 
 /// A name beside `path`, hidden, for mkstemp and mkdtemp; short enough for any file system that took the name itself.
@@ -132,6 +144,10 @@ bool OutputFile::open(FileError& error) {
     descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
     return descriptor_ >= 0 || error.set(name_, errno);
   }
+  if (const int own = exists ? open_already(found) : -1; own >= 0) {
+    descriptor_ = fcntl(own, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    return descriptor_ >= 0 || error.set(name_, errno);
+  }
   if (target_.empty() || target_.back() == '/') return error.set(name_, EISDIR);
   std::string pattern = pattern_beside(target_);
   descriptor_ = mkostemp(pattern.data(), O_CLOEXEC);
@@ -196,10 +212,8 @@ bool OutputFolder::open(FileError& error) {
     if (stat(".", &here) == 0 && here.st_dev == found.st_dev && here.st_ino == found.st_ino)
       return error.set(name_, EBUSY);
     target_ = followed(target_);
-  } else if (lstat(target_.c_str(), &found) == 0) {
-    return error.set(name_, ENOTDIR);  // a link that leads nowhere: a folder can't take its name
-  } else if (errno != ENOENT) {
-    return error.set(name_, errno);
+  } else if (const int reason = errno; reason != ENOENT || lstat(target_.c_str(), &found) == 0) {
+    return error.set(name_, reason == ENOENT ? ENOTDIR : reason);  // a folder can't take the name of a link to nowhere
   }
   std::string pattern = pattern_beside(target_);
   if (mkdtemp(pattern.data()) == nullptr) return error.set(name_, errno);

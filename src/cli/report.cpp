@@ -162,6 +162,9 @@ int report(const Arguments& arguments) {
     understood = workstation_seconds(seconds.text, name, results.back().workstation) && understood;
   }
   warn_unless(understood, seconds, run);
+  for (SceneResults& result : results) {
+    if (!understood) result.workstation.reset();
+  }
   Document document = report_document(results);
   add_scaling_chapter(document, sizes);
   add_memory_chapter(document, memory_cost);

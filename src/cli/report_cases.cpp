@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "ambient/gather.h"
+
 namespace shodo {
 
 namespace {
@@ -92,6 +94,10 @@ constexpr Line kLines[] = {
     {CaseGroup::kOther, FlagMode::kAuto, kNoRules, 1, 0, 0, "mirror-light on",
      [](Options& o) { o.mirror_light = true; }},
 };
+
+std::uint32_t lines_of(const Options& options) {
+  return options.gather_lines == 0 ? kGatherLines : options.gather_lines;
+}
 
 Options options_of(const Line& line, const Options& base) {
   Options options = base;
@@ -208,7 +214,7 @@ std::string options_text(const Options& options) {
   add(!options.scale_rows, "scale-rows", "off");
   add(options.row_value_bits != defaults.row_value_bits, "row-values", std::to_string(options.row_value_bits));
   add(options.mirror_light, "mirror-light", "on");
-  add(options.gathers(), "gather", options.gather_lines == 0 ? "on" : std::to_string(options.gather_lines));
+  add(options.gathers(), "gather", std::to_string(lines_of(options)));
   return text;
 }
 
@@ -222,7 +228,7 @@ bool same_settings(const Options& a, const Options& b) {
          a.segments_first == b.segments_first && a.segments_mixed == b.segments_mixed &&
          a.interpolate == b.interpolate && a.scale_rows == b.scale_rows && a.row_value_bits == b.row_value_bits &&
          a.tiers == b.tiers && a.mirror_light == b.mirror_light && a.gathers() == b.gathers() &&
-         (!a.gathers() || a.gather_lines == b.gather_lines);
+         (!a.gathers() || lines_of(a) == lines_of(b));
 }
 
 const ReportCase* find_case(const std::vector<ReportCase>& cases, FlagMode flags, const Rules& rules) {

@@ -149,9 +149,9 @@ class Labels {
     for (const double radius : kRadii) {
       for (const Offset& p : kRing) {
         if (found || !take(x + radius * p.x, y + radius * p.y)) continue;
-        const double to = (radius - 8) / radius;
-        label.line = printed("<path d=\"M%.1f %.1fL%.1f %.1f\"/>\n", x + 4 * p.x, y + 4 * p.y, x + to * radius * p.x,
-                             y + to * radius * p.y);
+        const double to = radius - 8;
+        label.line = printed("<path d=\"M%.1f %.1fL%.1f %.1f\"/>\n", x + 4 * p.x, y + 4 * p.y, x + to * p.x,
+                             y + to * p.y);
       }
     }
     taken_.push_back(box);

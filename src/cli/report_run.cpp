@@ -120,7 +120,9 @@ class LoadedScene {
     memory_.emplace(bytes);
     if (memory_->start() == nullptr)
       return failure(StatusCode::kFile, "the system refuses " + std::to_string(bytes) + " bytes of memory");
-    return shodo::load(job_.scene, text_, files_.reader(), job_.options, memory_->start(), bytes, model_);
+    Status status = shodo::load(job_.scene, text_, files_.reader(), job_.options, memory_->start(), bytes, model_);
+    files_.explain(status);
+    return status;
   }
 
   const ReportJob& job_;

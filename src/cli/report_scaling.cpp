@@ -36,7 +36,7 @@ std::vector<Series> series_of(const std::vector<CountedLine>& sizes) {
 
 bool counted(const Series& series) { return series.values[kInstructions].front() > 0; }
 
-bool different(const std::vector<double>& n) {
+bool different(std::span<const double> n) {
   return std::adjacent_find(n.begin(), n.end(), std::not_equal_to<>()) != n.end();
 }
 
@@ -78,6 +78,7 @@ bool read_scaling(std::string_view csv, std::vector<CountedLine>& sizes) {
 }
 
 double fitted_exponent(std::span<const double> n, std::span<const double> y) {
+  if (!different(n)) return 0;
   const double count = static_cast<double>(n.size());
   double mean_x = 0, mean_y = 0, xx = 0, xy = 0;
   for (std::size_t k = 0; k < n.size(); ++k) {
@@ -89,7 +90,7 @@ double fitted_exponent(std::span<const double> n, std::span<const double> y) {
     xx += x * x;
     xy += x * (logarithm(y[k]) - mean_y);
   }
-  return xx > 0 ? xy / xx : 0;
+  return xy / xx;
 }
 
 void add_scaling_chapter(Document& document, const std::vector<CountedLine>& sizes) {

@@ -45,8 +45,7 @@ bool workstation_seconds(std::string_view json, std::string_view room, std::opti
   if (json.empty()) return true;
   if (!is_object(json)) return false;
   std::string_view object = value_of(json, room);
-  if (object.empty()) return true;
-  if (!object.starts_with('{')) return false;
+  if (!object.starts_with('{')) return true;  // a number of another room
   object = object.substr(0, object.find('}'));
   WorkstationSeconds s;
   if (!number_of(object, "direct", s.direct) || !number_of(object, "form_factors", s.form_factors) ||

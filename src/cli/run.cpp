@@ -139,10 +139,10 @@ int Run::tell(const Status& status) {
     std::fprintf(stderr, "shodo: interrupted, nothing was written\n");
   } else if (status.file[0] == '\0') {
     std::fprintf(stderr, "shodo: %s\n", status.message);
+  } else if (status.line == 0) {
+    std::fprintf(stderr, "%s: %s\n", status.file, status.message);
   } else {
-    const std::string place = status.line == 0 ? "" : ":" + std::to_string(status.line) + ":" +
-                                                          std::to_string(status.column);
-    std::fprintf(stderr, "%s%s: %s\n", files_.path_of(status.file).c_str(), place.c_str(), status.message);
+    std::fprintf(stderr, "%s:%u:%u: %s\n", status.file, status.line, status.column, status.message);
   }
   return static_cast<int>(status.code);
 }

@@ -66,11 +66,15 @@ Reader SceneFiles::reader() {
           this};
 }
 
-std::string SceneFiles::path_of(std::string_view file) const {
-  return scene_.starts_with(file) ? std::string(file) : folder_ + std::string(file);  // a long name may be cut
-}
-
 void SceneFiles::explain(Status& status) const {
+  const std::string file = status.file;
+  constexpr std::size_t kMost = sizeof status.file - 1;  // of a longer name it is the end
+  const bool top = file == scene_ || (file.size() == kMost && scene_.ends_with(file));
+  if (!file.empty() && !top) {
+    const std::string path = folder_ + file;
+    const std::size_t first = path.size() > kMost ? path.size() - kMost : 0;
+    std::snprintf(status.file, sizeof status.file, "%s", path.c_str() + first);
+  }
   if (status.code != StatusCode::kScene || undecoded_.empty()) return;
   std::snprintf(status.message, sizeof status.message,
                 "expected a PNG, JPEG or TGA that can be decoded, of 1 to %d texels each way, found %s", kMostTexels,

@@ -18,9 +18,8 @@ class SceneFiles {
 
   bool read_top(std::string_view& text, FileError& error);
   Reader reader();
-  /// From the working folder, of a file as the library names it: the top file, or one that it includes.
-  std::string path_of(std::string_view file) const;
-  /// A picture that couldn't be decoded makes the library ask for a PPM: the message that names what the program takes.
+  /// Says more than the library can: an included file's path from the working folder, and of a picture that couldn't be
+  /// decoded, for which the library asks for a PPM, what the program takes.
   void explain(Status& status) const;
 
  private:

@@ -78,6 +78,10 @@ TEST(Files, ALinkThatLeadsNowhereMakesItsFile) {
   lstat((folder / "link.ppm").c_str(), &found);
   EXPECT_TRUE(S_ISLNK(found.st_mode));
   EXPECT_EQ(file_text(folder / "new.ppm").substr(0, 2), "P6");
+  ASSERT_EQ(symlink("further.ppm", (folder / "middle").c_str()), 0);
+  ASSERT_EQ(symlink("middle", (folder / "far.ppm").c_str()), 0);
+  EXPECT_EQ(run(render_sun("far.ppm"), folder.path()).status, 0);
+  EXPECT_EQ(file_text(folder / "further.ppm").substr(0, 2), "P6");
 }
 
 TEST(Files, NamesOfWhatIsOpenAreWrittenIntoAndNeverReplaced) {
@@ -95,6 +99,14 @@ TEST(Files, NamesOfWhatIsOpenAreWrittenIntoAndNeverReplaced) {
   for (const char* name : {"/dev/stdout", "/dev/stderr", "/dev/fd/1", "/dev/fd/7", "/proc/self/fd/1"})
     EXPECT_EQ(shell("--summary " + std::string(name)), plain) << name;
   EXPECT_EQ(shell("--summary /dev/stdout --csv -").size(), shell("--csv -").size() + plain.size() - 2) << "both";
+  ASSERT_EQ(symlink("/dev/stdout", (folder / "standard").c_str()), 0);
+  for (const char* name : {"standard", "/dev//stdout", "log"})
+    EXPECT_EQ(shell("--summary " + std::string(name)), plain) << name << ", which is where standard output goes";
+  folder.write("own.scn", file_text(test_scene("sun.scn")));
+  const std::string before = file_text(folder / "own.scn");
+  const std::string onto = program_path() + " map own.scn -o n --csv - >>own.scn 2>said";
+  EXPECT_NE(std::system(("cd " + folder.path() + " && " + onto).c_str()), 0);
+  EXPECT_EQ(file_text(folder / "own.scn"), before);
   EXPECT_TRUE(contains(shell("--summary /dev/fd/9")[1], "/dev/fd/9: Bad file descriptor"));
   const std::vector<std::string> twice = shell("--csv - --summary log");
   EXPECT_TRUE(contains(twice[1], "two outputs are one file, found 'log'")) << twice[1];
@@ -154,6 +166,11 @@ TEST(Files, AMistakeInAnIncludedFileIsNamedByAPathThatIsThere) {
   EXPECT_TRUE(run({"check", "top.scn"}, folder / "scenes").err.starts_with("parts/part.scn:2:"));
   folder.write("scenes/top.scn", "shodo 1\nquad\n");
   EXPECT_TRUE(run({"check", "scenes/top.scn"}, folder.path()).err.starts_with("scenes/top.scn:2:"));
+  folder.write("scenes/top.scn", "shodo 1\ninclude scenes\n");  // its name begins the top file's path
+  folder.write("scenes/scenes", "quad\n");
+  EXPECT_TRUE(run({"check", "scenes/top.scn"}, folder.path()).err.starts_with("scenes/scenes:1:"));
+  const std::string box = test_scene("box.scn");
+  EXPECT_TRUE(run({"report", box, "scenes/top.scn", "-o", "r"}, folder.path()).err.starts_with("scenes/scenes:1:"));
 }
 
 TEST(Files, OutputsThatCannotBeWrittenAreRefusedBeforeTheSceneIsRead) {

@@ -218,7 +218,8 @@ TEST(ReportWorkstation, SecondsComeFromTheFileOrNot) {
   EXPECT_TRUE(workstation_seconds("", "day", other)) << "there is none";
   EXPECT_FALSE(other.has_value());
   EXPECT_FALSE(workstation_seconds(json, "evening", other)) << "not all numbers are there";
-  EXPECT_FALSE(workstation_seconds("{\"day\": 3}", "day", other));
+  EXPECT_TRUE(workstation_seconds(json, "total", other)) << "no room, though a name in one";
+  EXPECT_FALSE(other.has_value());
   EXPECT_FALSE(workstation_seconds("day 3", "day", other));
   EXPECT_FALSE(workstation_seconds(json.substr(0, json.find(", \"evening")), "night", other)) << "cut short";
   EXPECT_FALSE(other.has_value());
@@ -236,6 +237,8 @@ TEST(ReportScaling, ExponentsAreThoseOfPowers) {
   // By hand: logarithms 0, 1, 2 and 0, 2, 3 of 10: slope 3 / 2.
   EXPECT_NEAR(fitted_exponent(std::vector<double>{1, 10, 100}, std::vector<double>{1, 100, 1000}), 1.5, 1e-12);
   EXPECT_EQ(fitted_exponent(std::vector<double>{7}, std::vector<double>{3}), 0) << "one size has no exponent";
+  const std::vector<double> same(6, 1526), other{1, 2, 3, 4, 5, 6};
+  EXPECT_EQ(fitted_exponent(same, other), 0);
 }
 
 TEST(ReportScaling, TheChapterFitsEachRoom) {
@@ -516,6 +519,8 @@ TEST_F(ReportCommand, SaysWhatItCannotReadBesideIt) {
         "memory-cost.csv: not as make memory-cost leaves it, so it is left out\n",
         "case-cost.csv: not as make case-cost leaves it, so it is left out\n"})
     EXPECT_EQ(count_of(told.err, says), 1u) << told.err;
+  folder.write("workstation.json", "{\"box\": {\"direct\": 1.5}}");
+  EXPECT_EQ(count_of(report(folder, "p").err, "workstation.json: not as"), 1u);
   EXPECT_EQ(report(folder, "q", {"--quiet"}).err, "");
   EXPECT_EQ(file_text(folder / "q/report.md"), file_text(folder / "r/report.md"));
 }
