@@ -394,14 +394,17 @@ struct Stop {
 
 TEST(Interrupts, ASignalInAnyLongStageEndsTheRunWithStatus130AndLeavesNothing) {
   if (!Terminal().works()) GTEST_SKIP() << "this system gives no pseudo-terminals";
-  const std::string shapes = test_scene("shapes.scn"), sun = test_scene("sun.scn");
+  const std::string shapes = test_scene("shapes.scn"), cornell = source_path("data/cornell.scn");
+  // The first stage is shown at once, others ten times a second: these take a second or so.
   const Stop stops[] = {
       {"direct", SIGINT, {"render", shapes, "-o", "x.ppm", "--refine", "12", "--memory", "1G"}},
       {"form factors",
        SIGTERM,
        {"map", shapes, "-o", "maps", "--refine", "3", "--segments", "256,256", "--tiers", "near", "--memory", "64M"}},
-      {"picture", SIGINT, {"render", sun, "-o", "x.ppm", "--size", "8192x8192", "--antialias", "16", "--csv", "x.csv"}},
-      {"picture", SIGTERM, {"render", sun, "-o", "x.png", "--size", "8192x8192", "--antialias", "16"}},
+      {"picture",
+       SIGINT,
+       {"render", cornell, "-o", "x.ppm", "--size", "16384x16384", "--antialias", "16", "--csv", "x.csv"}},
+      {"picture", SIGTERM, {"render", cornell, "-o", "x.png", "--size", "8192x8192", "--antialias", "16"}},
   };
   for (const Stop& stop : stops) {
     const TestFolder folder;
