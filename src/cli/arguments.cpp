@@ -123,10 +123,9 @@ class Words {
 
   void check_scenes() {
     const std::vector<std::string>& scenes = arguments_.scenes;
-    for (std::size_t k = 1; k < scenes.size(); ++k) {
-      if (std::find(scenes.begin(), scenes.begin() + static_cast<std::ptrdiff_t>(k), scenes[k]) !=
-          scenes.begin() + static_cast<std::ptrdiff_t>(k))
-        mistake_ = std::string(command_->name) + ": expected each scene once, found " + quoted(scenes[k]) + " twice";
+    for (auto at = scenes.begin(); at != scenes.end(); ++at) {
+      if (std::find(scenes.begin(), at, *at) != at)
+        mistake_ = std::string(command_->name) + ": expected each scene once, found " + quoted(*at) + " twice";
     }
   }
 

@@ -131,11 +131,14 @@ bool OutputFile::probe(FileError& error) {
   return works;
 }
 
+/// From where it stands; it stays open.
+bool OutputFile::write_into(int descriptor, FileError& error) {
+  descriptor_ = descriptor == STDOUT_FILENO ? descriptor : fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  return descriptor_ >= 0 || error.set(name_, errno);
+}
+
 bool OutputFile::open(FileError& error) {
-  if (const int own = named_descriptor(name_); own >= 0) {
-    descriptor_ = own == STDOUT_FILENO ? own : fcntl(own, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-    return descriptor_ >= 0 || error.set(name_, errno);
-  }
+  if (const int own = named_descriptor(name_); own >= 0) return write_into(own, error);
   target_ = followed(name_);
   struct stat found {};
   const bool exists = stat(target_.c_str(), &found) == 0;
@@ -144,10 +147,7 @@ bool OutputFile::open(FileError& error) {
     descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
     return descriptor_ >= 0 || error.set(name_, errno);
   }
-  if (const int own = exists ? open_already(found) : -1; own >= 0) {
-    descriptor_ = fcntl(own, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-    return descriptor_ >= 0 || error.set(name_, errno);
-  }
+  if (const int own = exists ? open_already(found) : -1; own >= 0) return write_into(own, error);
   if (target_.empty() || target_.back() == '/') return error.set(name_, EISDIR);
   std::string pattern = pattern_beside(target_);
   descriptor_ = mkostemp(pattern.data(), O_CLOEXEC);

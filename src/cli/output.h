@@ -45,6 +45,7 @@ class OutputFile {
   const std::string& name() const { return name_; }
 
  private:
+  bool write_into(int descriptor, FileError& error);
   bool flush(FileError& error);
   void drop();
 
