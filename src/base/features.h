@@ -12,6 +12,8 @@
 //     MESHES      triangles, grids, quads that are not convex                     the statements are refused
 //     PLANES      measuring planes                                                the statement is refused
 //     INCLUDES    `include` in a scene                                            the statement is refused
+//     MODELS      surfaces from Wavefront OBJ files (`obj`)                        the statement is refused
+//     LUMINAIRES  point lights as IES files have them (`ies`)                     the word is refused
 //     MESSAGES    texts: a Status has code, file, line, column, bytes_needed, and as its message the word it is about
 #pragma once
 
@@ -58,6 +60,16 @@ inline constexpr bool kIncludes = false;
 #else
 inline constexpr bool kIncludes = true;
 #endif
+#ifdef SHODO_WITHOUT_MODELS
+inline constexpr bool kModels = false;
+#else
+inline constexpr bool kModels = true;
+#endif
+#ifdef SHODO_WITHOUT_LUMINAIRES
+inline constexpr bool kLuminaires = false;
+#else
+inline constexpr bool kLuminaires = true;
+#endif
 #ifdef SHODO_WITHOUT_MESSAGES
 inline constexpr bool kMessages = false;
 #else
@@ -73,7 +85,8 @@ inline constexpr bool kSmallCode = false;
 #endif
 
 /// Nothing is left out.
-inline constexpr bool kFull = kBlocks && kRules && kAims && kGather && kMeshes && kPlanes && kIncludes && kMessages;
+inline constexpr bool kFull = kBlocks && kRules && kAims && kGather && kMeshes && kPlanes && kIncludes && kModels &&
+                              kLuminaires && kMessages;
 
 /// Nodes that hold others.
 inline constexpr bool kTrees = kBlocks || kRules;

@@ -84,6 +84,15 @@ bool Words::resolve(const Token& path, std::string_view& resolved) {
   return true;
 }
 
+bool Words::read(const Token& path, std::string_view& resolved, std::string_view& text) {
+  if (!resolve(path, resolved)) return false;
+  if (reader_.read != nullptr && reader_.read(reader_.context, resolved, text)) return true;
+  MessageText message = mistake(path, StatusCode::kFile);
+  message.add("expected a file that can be read");
+  add_found(message, path);
+  return false;
+}
+
 bool Words::enter(const Token& path) {
   if (depth_ == kMaxIncludeDepth) return expected(path, "at most 8 files within each other");
   if (includes_ == kMaxIncludes) return expected(path, "at most 1000 includes in all");
@@ -93,12 +102,7 @@ bool Words::enter(const Token& path) {
     if (files_[k].path == resolved) return expected(path, "a file that isn't being read already");
   }
   std::string_view text;
-  if (reader_.read == nullptr || !reader_.read(reader_.context, resolved, text)) {
-    MessageText message = mistake(path, StatusCode::kFile);
-    message.add("expected a file that can be read");
-    add_found(message, path);
-    return false;
-  }
+  if (!read(path, resolved, text)) return false;
   ++includes_;
   ++depth_;
   paths_used_ += resolved.size();
@@ -112,8 +116,9 @@ void Words::leave() {
   take();
 }
 
-void Words::place(const Token& at) {
-  const std::string_view name = depth_ == 0 ? name_ : files_[depth_].path;
+void Words::place(const Token& at) { place(depth_ == 0 ? name_ : files_[depth_].path, at); }
+
+void Words::place(std::string_view name, const Token& at) {
   constexpr std::size_t kRoom = sizeof status_.file - 1;
   TextBuilder(status_.file, sizeof status_.file).add(name.size() > kRoom ? slice(name, name.size() - kRoom) : name);
   status_.line = at.line;
@@ -126,6 +131,13 @@ MessageText Words::mistake(const Token& at, StatusCode code) {
   place(at);
   if constexpr (!features::kMessages) TextBuilder(status_.message, sizeof status_.message).add(at.text);
   return MessageText(status_.message, sizeof status_.message);
+}
+
+MessageText Words::mistake_in(std::string_view file, const Token& at) {
+  const MessageText message = mistake(at);
+  status_.file[0] = 0;
+  place(file, at);
+  return message;
 }
 
 bool Words::expected_other(const Token& at, std::string_view what) {

@@ -39,12 +39,16 @@ class Words {
   [[nodiscard]] bool enter(const Token& path);
   /// The file that `path` names, relative to the top file's folder; stands until the next call.
   [[nodiscard]] bool resolve(const Token& path, std::string_view& resolved);
+  /// The text of the file that `path` names, which is no scene file; `resolved` as above.
+  [[nodiscard]] bool read(const Token& path, std::string_view& resolved, std::string_view& text);
   /// Back to the including file; only at the end of an included one.
   void leave();
   bool included() const { return depth_ > 0; }
 
   /// A mistake at a word of the current file: the rest of the message is to be added to what is returned.
   MessageText mistake(const Token& at, StatusCode code = StatusCode::kScene);
+  /// The same in a file that read() gave.
+  MessageText mistake_in(std::string_view file, const Token& at);
   /// "expected <what>, found <the word>"; always false.
   bool expected(const Token& at, std::string_view what) {
     return expected_other(at, features::kMessages ? what : std::string_view());
@@ -60,6 +64,7 @@ class Words {
   };
 
   bool open(std::string_view path, std::string_view text);
+  void place(std::string_view file, const Token& at);
   bool expected_other(const Token& at, std::string_view what);
 
   std::string_view name_, text_;
