@@ -1,5 +1,5 @@
-# shodo: `make` builds build/shodo. Other targets: rooms, pictures, textures, report, test, truth, hard, stability, load,
-# coverage, check-same-bytes, fuzz, soak, mutants, machines, workstation, case-cost, scaling, memory-cost, check-budgets,
+# shodo: `make` builds build/shodo. Other targets: rooms, pictures, textures, luminaires, report, test, truth, hard,
+# stability, load, coverage, check-same-bytes, fuzz, soak, mutants, machines, workstation, case-cost, scaling, memory-cost, check-budgets,
 # install, install-needs, clean.
 #
 # Settings, on the command line of make:
@@ -126,6 +126,10 @@ $(BUILD)/paint: tools/paint.cpp $(BUILD)/flags.stamp
 textures: $(BUILD)/paint
 	$(BUILD)/paint $(TEXTURES)
 
+# The files of data/luminaires.
+luminaires:
+	sh tools/luminaires
+
 test: $(BUILD)/shodo $(BUILD)/tests $(BUILD)/paint
 	@BUILD=$(BUILD) sh tests/run
 
@@ -218,8 +222,8 @@ clean:
 	rm -rf $(BUILD) $(OUT)
 
 FORCE:
-.PHONY: all rooms pictures textures report test truth hard stability load coverage check-same-bytes fuzz soak mutants \
-  machines workstation case-cost scaling memory-cost check-budgets install install-needs clean FORCE
+.PHONY: all rooms pictures textures luminaires report test truth hard stability load coverage check-same-bytes fuzz \
+  soak mutants machines workstation case-cost scaling memory-cost check-budgets install install-needs clean FORCE
 .SECONDARY:
 
 -include $(COVERED_OBJECTS:.o=.d) $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(TEST_OBJECTS:.o=.d) \

@@ -104,7 +104,7 @@ PartText plan_part_text(PlanPart part) {
       {"the model", "its structure, and up to 7 for alignment"},
       {"scene",
        "40 materials + 40 objects + 56 meshes + 24 vertices + 260 lights + 96 cameras + 136 planes + names; "
-       "24 textured meshes + 4 c a patch of one"},
+       "24 textured meshes + 4 c a patch of one; 128 luminaires + 4 a candela and angle"},
       {"triangles that block", "72 triangles + 8 polygons + 4 meshes + 8 lights"},
       {"triangles of the picture", "68 drawn triangles; spare: given up while there is light to find"},
       {"while placing", "16 vertices + 24 polygons + 12 insertions + a tree; then 72 n, the patches"},

@@ -8,7 +8,8 @@
 namespace shodo {
 
 /// Gives the text of a file that a scene names. `path` is relative to the top file's folder, with '/' between folders,
-/// and never leaves it. The text must stay until load() or draw() has returned; both ask for pictures (PPM, P6 or P5).
+/// and never leaves it. The text must stay until load() or draw() has returned; both ask for pictures (PPM, P6 or P5),
+/// load() for all other files.
 struct Reader {
   /// False if the file can't be read.
   bool (*read)(void* context, std::string_view path, std::string_view& text) = nullptr;

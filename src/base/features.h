@@ -84,9 +84,8 @@ inline constexpr bool kSmallCode = true;
 inline constexpr bool kSmallCode = false;
 #endif
 
-/// Nothing is left out.
-inline constexpr bool kFull = kBlocks && kRules && kAims && kGather && kMeshes && kPlanes && kIncludes && kModels &&
-                              kLuminaires && kMessages;
+/// Nothing is left out but files of models and luminaires, perhaps.
+inline constexpr bool kFull = kBlocks && kRules && kAims && kGather && kMeshes && kPlanes && kIncludes && kMessages;
 
 /// Nodes that hold others.
 inline constexpr bool kTrees = kBlocks || kRules;

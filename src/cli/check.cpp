@@ -3,6 +3,7 @@
 #include <string>
 
 #include "cli/commands.h"
+#include "cli/luminaires.h"
 #include "cli/output.h"
 #include "cli/overlaps.h"
 #include "cli/png.h"
@@ -59,6 +60,7 @@ std::string model_text(const Model& model) {
     text += count(s.plane_sub_patches, "sub-patch", "sub-patches") + "\n";
   }
   text += "lights:    " + lights_text(model.scene) + "\n";
+  for (const std::string& line : luminaire_lines(model.scene)) text += "           " + line + "\n";
   text += "cameras:   " + cameras_text(model.scene) + "\n";
   const double metres = s.lattice_step * model.scene.metres_per_unit;
   text += "lattice:   a step is " + short_number(s.lattice_step) + " scene units, " + short_number(1e6 * metres) +
@@ -111,6 +113,7 @@ std::string memory_text(const Model& model, const Options& options, std::uint64_
 std::string warnings_text(const Model& model) {
   const Statistics& s = model.statistics;
   std::string text;
+  for (const std::string& line : luminaire_warnings(model.scene)) text += "warning:   " + line + "\n";
   if (std::uint64_t{100} * s.patches_thin > model.scene.patch_count) {
     text += "warning:   " + count(s.patches_thin, "patch is", "patches are") +
             " under 32 lattice steps wide, more than 1 % of them\n";

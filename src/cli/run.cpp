@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "cli/luminaires.h"
 #include "cli/overlaps.h"
 
 namespace shodo {
@@ -167,6 +168,7 @@ void Run::warn(const std::string& text) {
 }
 
 void Run::warn_of_changes() {
+  for (const std::string& line : luminaire_warnings(model_->scene)) warn(line);
   const Statistics& counted = model_->statistics;
   if (counted.polygons_dropped != 0) {
     warn(plural(counted.polygons_dropped, "polygon without area was", "polygons without area were") + " dropped");

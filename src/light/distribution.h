@@ -5,11 +5,17 @@
 
 namespace shodo {
 
-/// Luminous intensity of a point light in direction `away` (from the light, any length), cd: I, or I cos^n about
-/// `towards` and 0 behind. Nothing along the zero vector if the light is aimed.
-double intensity(const Light& light, const Vec3& away);
+/// Luminous intensity of a point light in direction `away` (from the light, any length), cd: I, I cos^n about `towards`
+/// and 0 behind, or that of its luminaire, linear between the angles of the file. Nothing along the zero vector if the
+/// light is aimed.
+double intensity(const Scene& scene, const Light& light, const Vec3& away);
 /// The same, given the length of `away`.
-double intensity(const Light& light, const Vec3& away, double length);
+double intensity(const Scene& scene, const Light& light, const Vec3& away, double length);
+
+/// The exponent of a cos^n that is about as narrow, 0 for a light that shines all round.
+double exponent_of(const Light& light);
+/// Solid angle over which the largest intensity gives all of a point light's flux, sr.
+double solid_angle_of(const Light& light);
 
 /// 1 / (C + L d + Q d^2), per square metre, d in metres; 0 where that is not a positive number. Finite for d > 0.
 double attenuation(const Light& light, double metres);

@@ -95,7 +95,7 @@ void MirrorLight::add_sample(const Receiver& receiver, const Sample& sample, con
     const Light& light = scene.lights[l];
     if (light.kind == LightKind::kPoint && image_way(l, light.position, way)) {
       const double far = length(way.to_image);
-      way.lux = weight * intensity(light, way.on_mirror - light.position) *
+      way.lux = weight * intensity(scene, light, way.on_mirror - light.position) *
                 (dot(receiver.normal, way.to_image) / far) * attenuation(light, far * scene.metres_per_unit);
       way.end = sources_->geometry().light_points[l];
       add_way(receiver, sample, mirror, way, lux);

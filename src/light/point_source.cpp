@@ -22,8 +22,6 @@ double size_squared(const Vec3* corner) {
   return b > largest ? b : largest;
 }
 
-double exponent_of(const Light& light) { return light.aimed ? light.cosine_exponent : 0; }
-
 /// Half the solid angle of a triangle given from the point; negative if it runs clockwise.
 double half_solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double la = length(a), lb = length(b), lc = length(c);
@@ -73,14 +71,14 @@ PointLux point_lux(const Scene& scene, const Light& light, const Receiver& recei
   double distance = length(away);
   // Straight below, d is the height but for rounding; on the sample itself it may come out as 0.
   const double cosine = height < distance ? height / distance : 1;
-  const double candela = intensity(light, away, distance);
+  const double candela = intensity(scene, light, away, distance);
   const bool clamped = distance < step;
   if (clamped) distance = step;
   return {candela * cosine * attenuation(light, distance * scene.metres_per_unit), clamped};
 }
 
 bool is_faint(const Scene& scene, const Light& light, const Vec3& point, double lux) {
-  if (!light.aimed) return false;
+  if (!light.aimed && light.luminaire == kNone) return false;
   const double metres = length(point - light.position) * scene.metres_per_unit;
   return lux < kFaint * (light.strength * attenuation(light, metres));
 }
@@ -120,7 +118,7 @@ double near_point_mean(const Scene& scene, const Light& light, const Piece& piec
         -2 * (half_solid_angle(corner[0], corner[1], corner[2]) + half_solid_angle(corner[0], corner[2], corner[3]));
     const double squared = length_squared(centre) > step_squared ? length_squared(centre) : step_squared;
     const double law = relative_attenuation(light, square_root(squared) * scene.metres_per_unit);
-    flux += intensity(light, centre) * law * solid_angle;
+    flux += intensity(scene, light, centre) * law * solid_angle;
   } while (cell.advance());
   const double metres = scene.metres_per_unit;
   const double area = length(piece.vector_area()) * metres * metres;

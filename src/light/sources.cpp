@@ -62,9 +62,8 @@ double Sources::share_squared(std::uint32_t l, const SubPatchView& view, double 
 double Sources::point_share(std::uint32_t l, const Vec3& centre, double lux, double area) const {
   const Light& point = light(l);
   const double metres = scene_->metres_per_unit;
-  const double solid_angle = point.aimed ? 2 * kPi / (point.cosine_exponent + 1) : 4 * kPi;
   if (!inverse_square(point)) lux /= relative_attenuation(point, length(point.position - centre) * metres);
-  return lux * area * (metres * metres) / (point.strength * solid_angle);
+  return lux * area * (metres * metres) / (point.strength * solid_angle_of(point));
 }
 
 void Sources::enclose(Source& source) const {

@@ -1,6 +1,7 @@
 // The statement `light` (paper 2.1: points, surfaces, polyhedra and the sun), and the flags of paper 3.1.
 //
 // The centres of area and polyhedral lights are found when everything has been read (finish.cpp).
+#include "base/elementary.h"
 #include "scene/quad_shape.h"
 #include "scene/slice.h"
 #include "scene/statements.h"
@@ -23,35 +24,48 @@ constexpr Kind kKinds[] = {{"point", LightKind::kPoint, kPoint},
                            {"sun", LightKind::kSun, kSun}};
 
 constexpr double kLargestExponent = 1e6;
+constexpr Interval kAnyTurn{-1e6, 1e6};
+// The axis of a light is along x, but for rounding.
+constexpr double kAlongX = 0x1p-40;
 // The diagonals of a light may pass each other at this part of the longer one.
 constexpr double kFlat = 1e-3;
 
-bool read_at(SceneReading& reading) {
-  return read_point(reading.words, {"at"}, value_of<Light>(reading).position);
-}
+/// A light as its statement is read.
+struct LightWords {
+  Light light;
+  Luminaire luminaire;
+  bool strength_given = false, has_luminaire = false;
+  Token turned;  // the word `turn`
+  double turn_degrees = 0;
+};
+
+Light& light_of(SceneReading& reading) { return value_of<LightWords>(reading).light; }
+
+bool read_at(SceneReading& reading) { return read_point(reading.words, {"at"}, light_of(reading).position); }
 
 bool read_towards(SceneReading& reading) {
-  return read_direction(reading.words, {"towards"}, value_of<Light>(reading).towards);
+  return read_direction(reading.words, {"towards"}, light_of(reading).towards);
 }
 
 bool read_strength(SceneReading& reading) {
-  return read_number(reading.words, {reading.key.text}, kNotNegative, value_of<Light>(reading).strength);
+  value_of<LightWords>(reading).strength_given = true;
+  return read_number(reading.words, {reading.key.text}, kNotNegative, light_of(reading).strength);
 }
 
 bool read_cosine(SceneReading& reading) {
-  Light& light = value_of<Light>(reading);
+  Light& light = light_of(reading);
   light.aimed = true;
   return read_number(reading.words, {"exponent of the cosine"}, {0, kLargestExponent}, light.cosine_exponent);
 }
 
-bool read_open(SceneReading& reading) { return value_of<Light>(reading).open = true; }
+bool read_open(SceneReading& reading) { return light_of(reading).open = true; }
 
 bool read_light_colour(SceneReading& reading) {
-  return read_colour(reading.words, {"colour"}, kNotNegative, value_of<Light>(reading).colour);
+  return read_colour(reading.words, {"colour"}, kNotNegative, light_of(reading).colour);
 }
 
 bool read_attenuation(SceneReading& reading) {
-  Light& light = value_of<Light>(reading);
+  Light& light = light_of(reading);
   constexpr std::string_view kParts[3] = {"C", "L", "Q"};
   const Token at = reading.words.peek();
   for (std::uint32_t k = 0; k < 3; ++k) {
@@ -62,11 +76,11 @@ bool read_attenuation(SceneReading& reading) {
 }
 
 /// A light that nobody sees behind.
-bool read_light_quad(SceneReading& reading) { return read_plane_quad(reading, value_of<Light>(reading).corners); }
+bool read_light_quad(SceneReading& reading) { return read_plane_quad(reading, light_of(reading).corners); }
 
 /// Only an object with faces can shine, and only as one light.
 bool read_light_object(SceneReading& reading) {
-  Light& light = value_of<Light>(reading);
+  Light& light = light_of(reading);
   const Token at = reading.words.peek();
   if (!read_reference(reading, "the name of an object", &SceneStore::find_object, light.object)) return false;
   if (!reading.store.storing()) return true;
@@ -76,23 +90,36 @@ bool read_light_object(SceneReading& reading) {
   return true;
 }
 
-bool read_later(SceneReading& reading) { return not_supported_yet(reading, reading.key); }
+/// ies FILE; the file itself is read when everything has been counted.
+bool read_ies(SceneReading& reading) {
+  if constexpr (!features::kLuminaires) return left_out(reading, reading.key);
+  LightWords& words = value_of<LightWords>(reading);
+  words.has_luminaire = true;
+  const auto index = static_cast<std::uint32_t>(reading.store.counts().luminaires);
+  return read_later_path(reading, "the path of an IES file", {Wanted::Kind::kLuminaire, index}, words.luminaire.path);
+}
+
+bool read_turn(SceneReading& reading) {
+  LightWords& words = value_of<LightWords>(reading);
+  words.turned = reading.key;
+  return read_number(reading.words, {"degrees of the turn"}, kAnyTurn, words.turn_degrees);
+}
 
 bool read_direct_flags(SceneReading& reading) {
-  return read_flags(reading, value_of<Light>(reading).direct);
+  return read_flags(reading, light_of(reading).direct);
 }
-bool read_ambient_flags(SceneReading& reading) { return read_flags(reading, value_of<Light>(reading).ambient); }
+bool read_ambient_flags(SceneReading& reading) { return read_flags(reading, light_of(reading).ambient); }
 
 constexpr Key kLightKeys[] = {{"quad", kArea, kArea, read_light_quad},
                               {"object", kPolyhedron, kPolyhedron, read_light_object},
                               {"at", kPoint, kPoint, read_at},
                               {"towards", kPoint | kSun, kSun, read_towards},
-                              {"intensity", kPoint, kPoint, read_strength},
+                              {"intensity", kPoint, 0, read_strength},
                               {"luminance", kArea | kPolyhedron, kArea | kPolyhedron, read_strength},
                               {"illuminance", kSun, kSun, read_strength},
                               {"cosine", kPoint, 0, read_cosine},
-                              {"ies", kPoint, 0, read_later},
-                              {"turn", kPoint, 0, read_later},
+                              {"ies", kPoint, 0, read_ies},
+                              {"turn", kPoint, 0, read_turn},
                               {"open", kArea, 0, read_open},
                               {"colour", kAny, 0, read_light_colour},
                               {"attenuation", kPoint | kArea | kPolyhedron, 0, read_attenuation},
@@ -107,6 +134,32 @@ const Kind* read_kind(Words& words) {
   }
   words.expected("point, area, polyhedron or sun");
   return nullptr;
+}
+
+/// What a point light's words must be together.
+bool check_point(SceneReading& reading, const LightWords& given) {
+  Words& words = reading.words;
+  if (given.strength_given == given.has_luminaire) {
+    return words.expected(given.has_luminaire ? "an intensity or an IES file, not both" : "intensity or ies");
+  }
+  const bool aims = given.light.towards != Vec3{};
+  if (given.light.aimed && !aims) return words.expected("'towards', since there is a 'cosine'");
+  if (given.has_luminaire && !aims) return words.expected("'towards', since there is an 'ies'");
+  if (given.has_luminaire && given.light.aimed) return words.expected("an IES file without a 'cosine'");
+  if (given.turned.kind == TokenKind::kWord && !given.has_luminaire) {
+    return words.expected(given.turned, "an IES file to turn");
+  }
+  return true;
+}
+
+/// C is 0 towards +x, +z for a light along x, then turned about `towards`; it grows the other way round (LM-63: as seen
+/// from above, of a light that shines down, counter-clockwise).
+void aim(const Vec3& towards, double turn_degrees, Luminaire& luminaire) {
+  const Vec3 x{1, 0, 0}, z{0, 0, 1};
+  const Vec3& side = length(cross(towards, x)) > kAlongX ? x : z;
+  const Vec3 zero = unit_vector(side - dot(side, towards) * towards), quarter = cross(towards, zero);
+  luminaire.along = unit_vector(cosine_degrees(turn_degrees) * zero + sine_degrees(turn_degrees) * quarter);
+  luminaire.across = cross(luminaire.along, towards);
 }
 
 struct Flag {
@@ -164,14 +217,21 @@ bool read_light(SceneReading& reading) {
   if (!read_new_name(reading, "the name of a light", &SceneStore::find_light, name)) return false;
   const Kind* kind = read_kind(words);
   if (kind == nullptr) return false;
-  Light light;
+  LightWords given;
+  Light& light = given.light;
   light.kind = kind->kind;
-  if (!read_keys(reading, kLightKeys, kind->bit, &light)) return false;
-  if (light.aimed && light.towards == Vec3{}) return words.expected("'towards', since there is a 'cosine'");
+  if (!read_keys(reading, kLightKeys, kind->bit, &given)) return false;
+  if (light.kind == LightKind::kPoint && !check_point(reading, given)) return false;
   if (reading.store.storing() && light.object != kNone) {
     reading.store.scene().objects[light.object].light = static_cast<std::uint32_t>(reading.store.counts().lights);
   }
   light.name = reading.store.add_name(name.text);
+  if (features::kLuminaires && given.has_luminaire) {
+    aim(light.towards, given.turn_degrees, given.luminaire);
+    given.luminaire.light = static_cast<std::uint32_t>(reading.store.counts().lights);
+    light.luminaire = static_cast<std::uint32_t>(reading.store.counts().luminaires);
+    reading.store.add(given.luminaire);
+  }
   reading.store.add(light);
   return true;
 }

@@ -103,8 +103,10 @@ struct Light {
   LightKind kind = LightKind::kPoint;
   bool aimed = false;            // point: I cos^n about `towards`
   bool open = false;             // area: an opening, blocks nothing
-  double cosine_exponent = 0;    // n
-  double strength = 0;           // point: intensity, cd; area, polyhedron: luminance, cd/m2; sun: illuminance, lx
+  std::uint32_t luminaire = kNone;  // point: its distribution is that one's
+  double cosine_exponent = 0;    // n; with a luminaire that of a cos^n with its flux and its largest intensity
+  double strength = 0;           // point: (largest) intensity, cd; area, polyhedron: luminance, cd/m2; sun:
+                                 // illuminance, lx
   Rgb colour{{1, 1, 1}};
   double attenuation[3] = {0, 0, 1};  // C, L, Q: illuminance times d^2 / (C + L d + Q d^2), d in metres
   Vec3 position;                 // point: where; area and polyhedron: the light's centre
@@ -112,6 +114,20 @@ struct Light {
   Vec3 corners[4];               // area: front towards (c1-c0) x (c2-c0)
   std::uint32_t object = kNone;  // polyhedron: the object whose faces emit
   GivenFlags direct, ambient;
+};
+
+/// How the light of a point light goes out, as an IES file has it (scene/ies_file.h).
+struct Luminaire {
+  std::string_view path;           // relative to the top file's folder
+  std::uint32_t light = 0;
+  bool tilted = false;             // the file has a TILT, which isn't applied
+  bool poles_differ = false;       // along the axis half-planes differed by more than 1 %: it is their mean
+  Vec3 along, across;              // unit: where V is 90 and C is 0, and 90
+  std::span<const float> vertical;    // angles V from the axis, degrees, ascending: 0 or 90 to 90 or 180
+  // Angles C of half-planes, degrees, ascending: 0, 0 to 90, 180 or 360, or 90 to 270; others are their mirror images.
+  std::span<const float> horizontal;
+  std::span<const float> candela;     // [half-plane * vertical.size() + v]
+  double lumens = 0;               // all of its light
 };
 
 /// A measuring plane: a plane convex quadrilateral that receives light on its front and does nothing else. It is no
@@ -172,6 +188,7 @@ struct Scene {
   std::span<Mesh> meshes;   // an object's meshes stand together, objects ascending
   std::span<Vec3> vertices;
   std::span<Light> lights;  // as an object for flags: index objects.size() + light
+  std::span<Luminaire> luminaires;   // of lights, ascending; mostly none
   std::span<Camera> cameras;
   std::span<Plane> planes;
   std::span<Optics> optics;          // ascending material; mostly none

@@ -5,6 +5,7 @@
 #include "scene/scene_file.h"
 
 #include "scene/finish.h"
+#include "scene/ies_file.h"
 #include "scene/patch_reflectance.h"
 #include "scene/scene_store.h"
 #include "scene/statements.h"
@@ -42,6 +43,10 @@ bool finish(Scene& scene, const Options& options, const Reader& reader, Arena& a
   if (!options.effects) leave_out_effects(scene);
   wanted.kind = Wanted::Kind::kTexture;
   if (!load_textures(scene, reader, arena, status, wanted.index)) return false;
+  if constexpr (features::kLuminaires) {
+    wanted.kind = Wanted::Kind::kLuminaire;
+    if (!load_luminaires(scene, reader, arena, status, wanted.index)) return false;
+  }
   wanted = {};
   place_lights(scene);
   decide_channels(scene);
@@ -61,7 +66,7 @@ bool load(Words& words, const Options& options, const Reader& reader, Arena& are
   if (!store.complete()) return changed_while_reading(storing);
   Wanted wanted;
   if (finish(scene, options, reader, arena, status, wanted)) return true;
-  if (status.code == StatusCode::kMemory) return false;
+  if (status.code == StatusCode::kMemory || status.line != 0) return false;
   store.begin_counting();
   SceneReading searching(words, store);
   searching.wanted = wanted;

@@ -32,12 +32,14 @@ bool SceneStore::take_blocks(Arena& arena) {
          take(arena, "background", counts_.backgrounds, scene_.background) &&
          take(arena, "glass", counts_.glass, scene_.glass) &&
          take(arena, "textures", counts_.textures, scene_.textures) &&
+         take(arena, "luminaires", counts_.luminaires, scene_.luminaires) &&
          take(arena, "names", counts_.name_bytes, names_);
 }
 
 bool SceneStore::begin_storing(Arena& arena, Status& status) {
   const Counts& c = counts_;
-  const auto shapes = c.meshes + c.vertices + c.planes + c.glass, named = c.materials + c.objects + c.textures;
+  const auto shapes = c.meshes + c.vertices + c.planes + c.glass;
+  const auto named = c.materials + c.objects + c.textures + c.luminaires;
   if (shapes + named + c.lights + c.cameras >= kNone) {
     status.code = StatusCode::kScene;
     MessageText(status.message, sizeof status.message).add("expected fewer than 2^32 vertices, meshes and lights");
@@ -48,7 +50,7 @@ bool SceneStore::begin_storing(Arena& arena, Status& status) {
                             block_bytes<Light>(counts_.lights) + block_bytes<Camera>(counts_.cameras) +
                             block_bytes<Plane>(counts_.planes) + block_bytes<Texture>(counts_.textures) +
                             block_bytes<Optics>(counts_.optics) + block_bytes<Background>(counts_.backgrounds) +
-                            block_bytes<Glass>(counts_.glass) +
+                            block_bytes<Glass>(counts_.glass) + block_bytes<Luminaire>(counts_.luminaires) +
                             block_bytes<char>(counts_.name_bytes);
   // One block of everything first: if it is refused, the arena tells the size that would do.
   const Arena::Mark mark = arena.mark();

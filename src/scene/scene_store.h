@@ -3,8 +3,8 @@
 // A scene file is read twice: the first time everything is only counted, then all blocks are taken at their exact
 // sizes, and the second time they are filled. So nothing is moved and nothing is left over. Bytes: 40 materials + 40
 // objects + 56 meshes + 24 vertices + 248 lights + 96 cameras + 136 planes + 72 optics + 144 backgrounds + 104 glass +
-// 96 textures + the lengths of names and of textures' paths, each block rounded up to 8 (64-bit pointers). Names are
-// looked up in file order, in the second reading only.
+// 96 textures + 128 luminaires + the lengths of names and of files' paths, each block rounded up to 8 (64-bit
+// pointers). Names are looked up in file order, in the second reading only.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ class SceneStore {
  public:
   struct Counts {
     std::uint64_t materials = 0, objects = 0, meshes = 0, vertices = 0, lights = 0, cameras = 0, planes = 0;
-    std::uint64_t optics = 0, backgrounds = 0, glass = 0, textures = 0, name_bytes = 0;
+    std::uint64_t optics = 0, backgrounds = 0, glass = 0, textures = 0, luminaires = 0, name_bytes = 0;
     bool operator==(const Counts&) const = default;
   };
 
@@ -50,6 +50,7 @@ class SceneStore {
   void add(const Optics& optics) { put(scene_.optics, counts_.optics, optics); }
   void add(const Background& background) { put(scene_.background, counts_.backgrounds, background); }
   void add(const Glass& glass) { put(scene_.glass, counts_.glass, glass); }
+  void add(const Luminaire& luminaire) { put(scene_.luminaires, counts_.luminaires, luminaire); }
   void add(const Texture& texture) { put(scene_.textures, counts_.textures, texture); }
   /// A copy in the arena; while counting the name itself.
   std::string_view add_name(std::string_view name);

@@ -152,18 +152,23 @@ constexpr Key kMaterialKeys[] = {{"diffuse", kAlways, kAlways, read_diffuse},
 
 }  // namespace
 
-bool read_picture_path(SceneReading& reading, Texture& texture) {
+bool read_later_path(SceneReading& reading, std::string_view what, const Wanted& here, std::string_view& path) {
   Words& words = reading.words;
-  if (!words.at_word()) return words.expected("the path of a picture");
+  if (!words.at_word()) return words.expected(what);
   const Token file = words.take();
-  if (reading.wanted.kind == Wanted::Kind::kTexture && reading.wanted.index == reading.store.counts().textures) {
+  if (reading.wanted.kind == here.kind && reading.wanted.index == here.index) {
     words.place(file);
     return false;
   }
-  std::string_view path;
-  if (!words.resolve(file, path)) return false;
-  texture.path = reading.store.add_name(path);
+  std::string_view resolved;
+  if (!words.resolve(file, resolved)) return false;
+  path = reading.store.add_name(resolved);
   return true;
+}
+
+bool read_picture_path(SceneReading& reading, Texture& texture) {
+  const auto index = static_cast<std::uint32_t>(reading.store.counts().textures);
+  return read_later_path(reading, "the path of a picture", {Wanted::Kind::kTexture, index}, texture.path);
 }
 
 bool read_keys(SceneReading& reading, std::span<const Key> keys, std::uint32_t kind, void* value) {

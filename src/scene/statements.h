@@ -16,7 +16,7 @@ namespace shodo {
 
 /// Something whose place in the file is asked for afterwards: a mistake that shows only when the whole scene is known.
 struct Wanted {
-  enum class Kind : std::uint8_t { kNothing, kMesh, kCamera, kPlane, kTexture };
+  enum class Kind : std::uint8_t { kNothing, kMesh, kCamera, kPlane, kTexture, kLuminaire };
   Kind kind = Kind::kNothing;
   std::uint32_t index = 0;
 };
@@ -89,6 +89,9 @@ using FindName = std::uint32_t (SceneStore::*)(std::string_view) const;
 
 /// The path of a picture, to be read when all meshes are known.
 bool read_picture_path(SceneReading& reading, Texture& texture);
+/// The path of a file that is read when everything has been counted; `what` as in "the path of a picture". False too if
+/// it is the one that is wanted.
+bool read_later_path(SceneReading& reading, std::string_view what, const Wanted& here, std::string_view& path);
 /// The name of something that is defined above: its index, 0 while counting. `what` as in "the name of a material".
 bool read_reference(SceneReading& reading, std::string_view what, FindName find, std::uint32_t& index);
 /// A name that nothing of its kind has yet.

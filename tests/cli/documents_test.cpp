@@ -50,9 +50,10 @@ TEST(Documents, TheExampleOfTheSceneFileIsASceneThatIsDrawn) {
   folder.write("oak.ppm", kTexels);
   folder.write("garden.ppm", kTexels);
   folder.write("chair.scn", "object chair\n");
+  folder.write("downlight.ies", file_text("data/luminaires/downlight.ies"));
   const Outcome check = run({"check", "all.scn"}, folder.path());
   ASSERT_EQ(check.status, 0) << check.err;
-  EXPECT_TRUE(contains(check.out, "lights:    1 point, 1 polyhedron, 1 sun, 1 opening\n")) << check.out;
+  EXPECT_TRUE(contains(check.out, "lights:    2 points, 1 polyhedron, 1 sun, 1 opening\n")) << check.out;
   const Outcome render = run({"render", "all.scn", "-o", "x.ppm", "--size", "40x30"}, folder.path());
   EXPECT_EQ(render.status, 0);
   EXPECT_EQ(render.err, "");

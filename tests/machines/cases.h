@@ -21,6 +21,7 @@ struct Case {
   Scarce scarce;
   bool sent;                          // its picture leaves the machine as it is drawn
   bool lean;                          // the lean library (tools/machines) can do it; else it must refuse
+  bool luminaires = false;            // a library without them must refuse it
 };
 
 std::span<const Case> all_cases();

@@ -14,6 +14,8 @@ COMPILED_IN(file_planes, "tests/cli/scenes/planes.scn");
 COMPILED_IN(file_textures, "tests/cli/scenes/textures.scn");
 COMPILED_IN(file_tiles, "tests/cli/scenes/tiles.ppm");
 COMPILED_IN(file_glass, "tests/cli/scenes/glass.scn");
+COMPILED_IN(file_luminaires, "tests/cli/scenes/luminaires.scn");
+COMPILED_IN(file_spread, "tests/cli/scenes/spread.ies");
 COMPILED_IN(file_day, "data/day.scn");
 COMPILED_IN(file_room, "data/room.scn");
 COMPILED_IN(file_planks, "data/textures/planks.pgm");
@@ -40,6 +42,8 @@ constexpr File kFiles[] = {
     {"tests/cli/scenes/textures.scn", file_textures, file_textures_end},
     {"tiles.ppm", file_tiles, file_tiles_end},  // as textures.scn calls it
     {"tests/cli/scenes/glass.scn", file_glass, file_glass_end},
+    {"tests/cli/scenes/luminaires.scn", file_luminaires, file_luminaires_end},
+    {"spread.ies", file_spread, file_spread_end},  // as luminaires.scn calls it
     {"data/day.scn", file_day, file_day_end},
     {"room.scn", file_room, file_room_end},  // as day.scn calls it
     {"textures/planks.pgm", file_planks, file_planks_end},

@@ -179,7 +179,7 @@ int run_cases(const Machine& machine, std::string_view only) {
   for (const Case& c : all_cases()) {
     if (!only.empty() && only != c.name) continue;
     Outcome outcome;
-    if (!features::kFull && !c.lean) {
+    if ((!features::kFull && !c.lean) || (!features::kLuminaires && c.luminaires)) {
       same = refused(machine, c) && same;
       continue;
     }

@@ -167,8 +167,6 @@ TEST(SceneRefusals, Materials) {
 
 TEST(SceneRefusals, WhatIsStillToCome) {
   expect_refused(after_start("obj chair.obj", 1, "'obj' is not supported yet"));
-  expect_refused(
-      after_start("light l point at 0 0 0 towards 0 -1 0 ies a.ies turn 90", 39, "'ies' is not supported yet"));
 }
 
 TEST(SceneRefusals, Names) {
@@ -269,7 +267,16 @@ TEST(SceneRefusals, Lights) {
   expect_refused(after_start("light l sun illuminance 1", 26, "expected towards, found the end of the line"));
   expect_refused(after_start("light l sun towards 0 -1 0", 27, "expected illuminance, found"));
   expect_refused(after_start("light l point intensity 3", 26, "expected at, found"));
-  expect_refused(after_start("light l point at 0 0 0", 23, "expected intensity, found"));
+  expect_refused(after_start("light l point at 0 0 0", 23, "expected intensity or ies, found"));
+  const std::string ies = "light l point at 0 0 0 ies a.ies";
+  expect_refused(after_start(ies, 33, "expected 'towards', since there is an 'ies'"));
+  expect_refused(after_start(ies + " towards 0 1 0 intensity 1", 59, "an intensity or an IES file, not both"));
+  expect_refused(after_start(ies + " towards 0 1 0 cosine 2", 56, "expected an IES file without a 'cosine'"));
+  expect_refused(after_start("light l point at 0 0 0 intensity 1 turn 3", 36, "an IES file to turn, found 'turn'"));
+  expect_refused(after_start("light l point at 0 0 0 ies", 27, "expected the path of an IES file, found the end of"));
+  expect_refused(after_start("light l point at 0 0 0 ies /a", 28, "a path relative to this file"));
+  expect_refused(after_start(ies + " turn x", 39, "expected a number (degrees of the turn), found 'x'"));
+  expect_refused(after_start("light l sun towards 0 1 0 illuminance 1 ies a", 41, "towards, illuminance, colour"));
   expect_refused(after_start("light l area luminance 3", 25, "expected quad, found"));
   expect_refused(after_start("light l area quad 0 0 0 0 0 1 1 0 1 1 0 0", 42, "expected luminance, found"));
   expect_refused(after_start("light l polyhedron luminance 3", 31, "expected object, found"));

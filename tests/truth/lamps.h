@@ -6,6 +6,7 @@
 // area. Both have the mean of L cos dw over it exactly. Nothing is clamped.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -115,7 +116,9 @@ class Lamps {
       arrival.distance = length(to);
       arrival.along = (1 / arrival.distance) * to;
       double candela = light.strength;
-      if (light.aimed) {
+      if (light.luminaire != kNone) {
+        candela = table(light, -arrival.along);
+      } else if (light.aimed) {
         const double cosine = -dot(light.towards, arrival.along);
         candela *= cosine > 0 ? std::pow(cosine, light.cosine_exponent) : 0;
       }
@@ -128,6 +131,39 @@ class Lamps {
     if (!(arrival.lux > 0)) return {};
     arrival.weight = arrival.lux * (light.colour.c[0] + light.colour.c[1] + light.colour.c[2]);
     return arrival;
+  }
+
+  /// What a luminaire's file says of a direction, linear in both of its angles; found by walking along them.
+  double table(const Light& light, const Vec3& along) const {
+    const Luminaire& from = world_.scene().luminaires[light.luminaire];
+    const double v = std::acos(std::clamp(dot(along, light.towards), -1.0, 1.0)) * 360 / kTwoPi;
+    double h = std::atan2(dot(along, from.across), dot(along, from.along)) * 360 / kTwoPi;
+    // Every half-plane of the circle that has these intensities; one of them is in the file.
+    if (h < 0) h += 360;
+    const double low = from.horizontal.front(), high = from.horizontal.back();
+    for (const double same : {h, 360 - h, 180 - h, 180 + h, 540 - h, h - 180}) {
+      if (same >= low && same <= high) {
+        h = same;
+        break;
+      }
+    }
+    if (high == low) h = low;
+    const auto next = [](std::span<const float> angles, double at) {
+      std::size_t k = 1;
+      while (k + 1 < angles.size() && static_cast<double>(angles[k]) < at) ++k;
+      return k;
+    };
+    if (v < from.vertical.front() || v > from.vertical.back()) return 0;
+    const std::size_t rows = from.vertical.size(), n = next(from.vertical, v);
+    const double up = (v - from.vertical[n - 1]) / (static_cast<double>(from.vertical[n]) - from.vertical[n - 1]);
+    const auto plane = [&](std::size_t k) {
+      return (1 - up) * from.candela[k * rows + n - 1] + up * from.candela[k * rows + n];
+    };
+    if (from.horizontal.size() == 1) return plane(0);
+    const std::size_t m = next(from.horizontal, h);
+    const double low_side = from.horizontal[m - 1], high_side = from.horizontal[m];
+    const double side = (h - low_side) / (high_side - low_side);
+    return (1 - side) * plane(m - 1) + side * plane(m);
   }
 
   /// A point of a lamp's faces, and cos dw over the chance of it.
