@@ -107,7 +107,9 @@ PartText plan_part_text(PlanPart part) {
        "24 textured meshes + 4 c a patch of one; 128 luminaires + 4 a candela and angle"},
       {"triangles that block", "72 triangles + 8 polygons + 4 meshes + 8 lights"},
       {"triangles of the picture", "68 drawn triangles; spare: given up while there is light to find"},
-      {"while placing", "16 vertices + 24 polygons + 12 insertions + a tree; then 72 n, the patches"},
+      {"while placing",
+       "16 vertices + 24 polygons + 12 insertions + a tree; then 72 n, the patches; before, with obj: 24 of its "
+       "vertices + 64 `usemtl` + 46 corners of its largest face"},
       {"flags", "2 (objects + lights)"},
       {"direct light of the patches", "(8 c + 8) n"},
       {"possible blockers", "32 facets + 24 boxes + 8 facets"},

@@ -1,6 +1,6 @@
 #include "ambient/surfaces.h"
 
-#include "visibility/sort.h"
+#include "base/sort.h"
 
 namespace shodo {
 

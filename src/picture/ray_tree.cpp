@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "visibility/sort.h"
+#include "base/sort.h"
 
 namespace shodo {
 

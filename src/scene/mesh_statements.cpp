@@ -1,9 +1,10 @@
-// The statements that make surfaces: object, quad, tri, grid, sub (and obj, to come); and plane, which measures.
+// The statements that make surfaces: object, quad, tri, grid, sub (obj: obj_statement.cpp); and plane, which measures.
 //
 // Faces without area are left out and counted; a quad with two equal neighbouring corners becomes the triangle that it
 // is, divided by the larger of its two counts (a quad that is not convex takes the larger for both, see mesh.h). A grid
 // is kept whole: its cells without area stay in the mesh, are counted here, and their patches are dropped by whoever
 // builds patches.
+#include "scene/faces.h"
 #include "scene/quad_shape.h"
 #include "scene/statements.h"
 #include "scene/values.h"
@@ -11,11 +12,6 @@
 namespace shodo {
 
 namespace {
-
-/// What follows the corners; 0: not given.
-struct GivenCounts {
-  std::uint32_t nu = 0, nv = 0, su = 0, sv = 0;
-};
 
 constexpr std::uint32_t kQuad = 1, kTri = 2, kGrid = 4;
 
@@ -59,71 +55,15 @@ constexpr Key kObjectKeys[] = {{"direct", 1, 0, read_direct_flags}, {"ambient", 
 
 std::uint32_t larger(std::uint32_t a, std::uint32_t b) { return a > b ? a : b; }
 
-/// A mesh must belong to an object; reads its material.
-bool begin_mesh(SceneReading& reading, Mesh& mesh) {
-  if (reading.store.counts().objects == 0) {
-    return reading.words.expected(reading.statement, "an 'object' before the first surface");
-  }
-  mesh.object = static_cast<std::uint32_t>(reading.store.counts().objects - 1);
-  mesh.first_vertex = static_cast<std::uint32_t>(reading.store.counts().vertices);
-  return read_reference(reading, "the name of a material", &SceneStore::find_material, mesh.material);
-}
-
-bool sub_suits_triangle(const SceneReading& reading) {
-  if (reading.sub_u == reading.sub_v) return true;
-  MessageText message = reading.words.mistake(reading.statement);
-  message.add("expected equal counts in the 'sub' of an object with a triangle, found ");
-  message.add(reading.sub_u).add(' ').add(reading.sub_v);
-  return false;
-}
-
-/// Hands over a mesh whose vertices have been handed over.
-bool add_mesh(SceneReading& reading, Mesh& mesh, const GivenCounts& given) {
-  if (mesh.kind == MeshKind::kTriangle && !sub_suits_triangle(reading)) return false;
-  if (reading.wanted.kind == Wanted::Kind::kMesh && reading.wanted.index == reading.store.counts().meshes) {
-    reading.words.place(reading.statement);
-    return false;
-  }
-  mesh.nu = given.nu;
-  mesh.nv = given.nv;
-  mesh.su = reading.sub_u != 0 ? reading.sub_u : given.su;
-  mesh.sv = reading.sub_v != 0 ? reading.sub_v : given.sv;
-  reading.store.add(mesh);
-  if (reading.store.storing()) ++reading.store.scene().objects[mesh.object].mesh_count;
-  return true;
+/// A mesh's object and its material.
+bool begin_surface(SceneReading& reading, Mesh& mesh) {
+  return begin_mesh(reading, mesh) &&
+         read_reference(reading, "the name of a material", &SceneStore::find_material, mesh.material);
 }
 
 bool only_convex_quads(SceneReading& reading) {
   reading.words.mistake(reading.statement).add("this library is built without quads that are not convex");
   return false;
-}
-
-bool add_triangle(SceneReading& reading, Mesh& mesh, const Vec3* corner, const GivenCounts& given) {
-  if (!triangle_has_area(corner[0], corner[1], corner[2])) {
-    ++reading.store.scene().polygons_dropped;
-    return true;
-  }
-  mesh.kind = MeshKind::kTriangle;
-  for (std::uint32_t k = 0; k < 3; ++k) reading.store.add(corner[k]);
-  return add_mesh(reading, mesh, given);
-}
-
-bool add_quad(SceneReading& reading, Mesh& mesh, const Vec3* corner, const GivenCounts& given) {
-  const QuadShape shape = quad_shape(corner);
-  if (shape == QuadShape::kCrossing) {
-    reading.words.mistake(reading.statement).add("expected a quad that does not cross itself or fold over");
-    return false;
-  }
-  if (shape == QuadShape::kNoArea) {
-    ++reading.store.scene().polygons_dropped;
-    return true;
-  }
-  if (!features::kMeshes && shape != QuadShape::kConvex) return only_convex_quads(reading);
-  mesh.kind = MeshKind::kQuad;
-  mesh.cut = shape != QuadShape::kConvex;
-  mesh.concave = shape == QuadShape::kCut13;
-  for (std::uint32_t k = 0; k < 4; ++k) reading.store.add(corner[k]);
-  return add_mesh(reading, mesh, given);
 }
 
 bool read_corners(SceneReading& reading, Vec3* corner, std::uint32_t count) {
@@ -181,7 +121,7 @@ bool read_quad(SceneReading& reading) {
   Mesh mesh;
   Vec3 corner[4];
   GivenCounts given;
-  if (!begin_mesh(reading, mesh) || !read_corners(reading, corner, 4)) return false;
+  if (!begin_surface(reading, mesh) || !read_corners(reading, corner, 4)) return false;
   if (!read_keys(reading, kCountKeys, kQuad, &given)) return false;
   Vec3 different[4];
   std::uint32_t count = 0;
@@ -189,7 +129,17 @@ bool read_quad(SceneReading& reading) {
     if (corner[k] != corner[(k + 3) % 4]) different[count++] = corner[k];
   }
   if (!features::kMeshes && count == 3) return only_convex_quads(reading);
-  if (count != 3) return add_quad(reading, mesh, corner, given);
+  if (count != 3) {
+    const QuadShape shape = quad_shape(corner);
+    if (shape == QuadShape::kCrossing) {
+      reading.words.mistake(reading.statement).add("expected a quad that does not cross itself or fold over");
+      return false;
+    }
+    if (!features::kMeshes && shape != QuadShape::kConvex && shape != QuadShape::kNoArea) {
+      return only_convex_quads(reading);
+    }
+    return add_quad(reading, mesh, corner, shape, given);
+  }
   given.nu = given.nv = larger(given.nu, given.nv);
   given.su = given.sv = larger(given.su, given.sv);
   return add_triangle(reading, mesh, different, given);
@@ -201,7 +151,7 @@ bool read_tri(SceneReading& reading) {
   Mesh mesh;
   Vec3 corner[3];
   GivenCounts given;
-  if (!begin_mesh(reading, mesh) || !read_corners(reading, corner, 3)) return false;
+  if (!begin_surface(reading, mesh) || !read_corners(reading, corner, 3)) return false;
   if (!read_keys(reading, kCountKeys, kTri, &given)) return false;
   return add_triangle(reading, mesh, corner, given);
 }
@@ -213,7 +163,7 @@ bool read_grid(SceneReading& reading) {
   Mesh mesh;
   mesh.kind = MeshKind::kGrid;
   std::uint32_t columns = 0, rows = 0;
-  if (!begin_mesh(reading, mesh) || !read_count(words, {"columns of vertices"}, 2, kMostPieces, columns) ||
+  if (!begin_surface(reading, mesh) || !read_count(words, {"columns of vertices"}, 2, kMostPieces, columns) ||
       !read_count(words, {"rows of vertices"}, 2, kMostPieces, rows)) {
     return false;
   }
@@ -254,8 +204,6 @@ bool read_plane(SceneReading& reading) {
   reading.store.add(plane);
   return true;
 }
-
-bool read_obj(SceneReading& reading) { return not_supported_yet(reading, reading.statement); }
 
 /// sub OBJECT SU [SV]: for all meshes of the object, also those still to come; without SV it is SU. The last one
 /// counts.

@@ -18,7 +18,7 @@ namespace shodo {
 inline constexpr std::uint32_t kNone = 0xffffffff;
 
 struct Material {
-  std::string_view name;
+  std::string_view name;  // empty: of a model
   Rgb diffuse;  // reflectance rho, 0 .. 0.9999
 };
 

@@ -57,18 +57,20 @@ bool finish(Scene& scene, const Options& options, const Reader& reader, Arena& a
 }
 
 bool load(Words& words, const Options& options, const Reader& reader, Arena& arena, Scene& scene, Status& status) {
+  const Arena::Mark mark = arena.mark();
   SceneStore store(scene);
-  SceneReading counting(words, store);
+  SceneReading counting(words, store, arena, status);
   if (!read_statements(counting)) return false;
   if (!store.begin_storing(arena, status)) return false;
-  SceneReading storing(words, store);
+  SceneReading storing(words, store, arena, status);
   if (!read_statements(storing)) return false;
   if (!store.complete()) return changed_while_reading(storing);
   Wanted wanted;
   if (finish(scene, options, reader, arena, status, wanted)) return true;
   if (status.code == StatusCode::kMemory || status.line != 0) return false;
   store.begin_counting();
-  SceneReading searching(words, store);
+  arena.release(mark);
+  SceneReading searching(words, store, arena, status);
   searching.wanted = wanted;
   return read_statements(searching) && false;
 }

@@ -240,11 +240,6 @@ bool left_out(SceneReading& reading, const Token& at) {
   return false;
 }
 
-bool not_supported_yet(SceneReading& reading, const Token& at) {
-  reading.words.mistake(at).add('\'').add(at.text).add("' is not supported yet");
-  return false;
-}
-
 /// unit m|cm|mm|in|ft: once, in the top file.
 bool read_unit(SceneReading& reading) {
   Words& words = reading.words;

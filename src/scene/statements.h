@@ -23,10 +23,13 @@ struct Wanted {
 
 /// One reading of a scene file.
 struct SceneReading {
-  SceneReading(Words& all_words, SceneStore& a_store) : words(all_words), store(a_store) {}
+  SceneReading(Words& all_words, SceneStore& a_store, Arena& an_arena, Status& a_status)
+      : words(all_words), store(a_store), arena(an_arena), status(a_status) {}
 
   Words& words;
   SceneStore& store;
+  Arena& arena;     // for scratch, which is given back with each statement
+  Status& status;   // the one of `words`
   Wanted wanted;
   Token statement;  // its first word
   Token key;        // the word whose values are being read
@@ -36,6 +39,7 @@ struct SceneReading {
   bool unit_given = false;
   bool display_given = false;
   bool background_given = false;
+  std::uint32_t models = 0;            // `obj` so far
   std::uint32_t sub_u = 0, sub_v = 0;  // `sub` of the object that the next mesh belongs to; 0: not given
 };
 
@@ -60,9 +64,10 @@ bool read_object(SceneReading& reading);
 bool read_quad(SceneReading& reading);
 bool read_tri(SceneReading& reading);
 bool read_grid(SceneReading& reading);
-bool read_obj(SceneReading& reading);
 bool read_sub(SceneReading& reading);
 bool read_plane(SceneReading& reading);
+// obj_statement.cpp
+bool read_obj(SceneReading& reading);
 // light_statements.cpp
 bool read_light(SceneReading& reading);
 /// Four different corners of a convex quad, in one plane as nearly as it matters.
@@ -100,7 +105,5 @@ bool read_new_name(SceneReading& reading, std::string_view what, FindName find, 
 bool read_flags(SceneReading& reading, GivenFlags& flags);
 /// "this library is built without <the word>"; always false.
 bool left_out(SceneReading& reading, const Token& at);
-/// "<the word> is not supported yet"; always false.
-bool not_supported_yet(SceneReading& reading, const Token& at);
 
 }  // namespace shodo

@@ -23,21 +23,33 @@ bool is_name_character(char c) {
 
 }  // namespace
 
+bool number_of(const Token& at, const Interval& allowed, double& value) {
+  if (at.kind != TokenKind::kWord) return false;
+  const DecimalResult number = parse_decimal(at.text);
+  const bool within = number.value >= allowed.low && number.value <= allowed.high;
+  if (number.error != DecimalError::none || !within) return false;
+  value = number.value;
+  return true;
+}
+
+void add_expected_number(MessageText& message, const Token& at, const What& what, const Interval& allowed) {
+  const DecimalError error = at.kind == TokenKind::kWord ? parse_decimal(at.text).error : DecimalError::empty;
+  message.add("expected a number");
+  if (error == DecimalError::none || error == DecimalError::out_of_range) {
+    message.add(" from ").add(allowed.low).add(" to ").add(allowed.high);
+  }
+  add_what(message, what);
+  add_found(message, at);
+}
+
 bool read_number(Words& words, const What& what, const Interval& allowed, double& value) {
   const Token at = words.peek();
-  const bool word = at.kind == TokenKind::kWord;
-  const DecimalResult number = word ? parse_decimal(at.text) : DecimalResult{};
-  const bool is_number = word && (number.error == DecimalError::none || number.error == DecimalError::out_of_range);
-  if (is_number && number.error == DecimalError::none && number.value >= allowed.low && number.value <= allowed.high) {
-    value = number.value;
+  if (number_of(at, allowed, value)) {
     words.take();
     return true;
   }
   MessageText message = words.mistake(at);
-  message.add("expected a number");
-  if (is_number) message.add(" from ").add(allowed.low).add(" to ").add(allowed.high);
-  add_what(message, what);
-  add_found(message, at);
+  add_expected_number(message, at, what, allowed);
   return false;
 }
 

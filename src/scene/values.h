@@ -31,6 +31,9 @@ inline constexpr double kLargestReflectance = 0.9999;  // contract 2: nearer to 
 inline constexpr std::uint32_t kMostPieces = 65535;   // patches along an edge, sub-patches along a patch's edge
 inline constexpr std::size_t kLongestName = 63;
 
+/// What read_number() does without the words: a word's value, and a message's "expected a number ...".
+bool number_of(const Token& at, const Interval& allowed, double& value);
+void add_expected_number(MessageText& message, const Token& at, const What& what, const Interval& allowed);
 bool read_number(Words& words, const What& what, const Interval& allowed, double& value);
 bool read_point(Words& words, const What& what, Vec3& point);
 /// A vector other than zero, made a unit vector.

@@ -93,6 +93,19 @@ bool Words::read(const Token& path, std::string_view& resolved, std::string_view
   return false;
 }
 
+bool Words::read_beside(std::string_view file, const Token& path, std::string_view& resolved, std::string_view& text) {
+  std::size_t size = 0;
+  const std::span<char> free = std::span(paths_).subspan(paths_used_ + file.size());
+  const PathProblem problem = resolve_include(file, path.text, free, size);
+  resolved = {free.data(), size};
+  const bool missing = problem == PathProblem::kNone;  // there is a reader: it gave the file
+  if (missing && reader_.read(reader_.context, resolved, text)) return true;
+  MessageText message = mistake_in(file, path, missing ? StatusCode::kFile : StatusCode::kScene);
+  message.add("expected ").add(missing ? "a file that can be read" : problem_text(problem));
+  add_found(message, path);
+  return false;
+}
+
 bool Words::enter(const Token& path) {
   if (depth_ == kMaxIncludeDepth) return expected(path, "at most 8 files within each other");
   if (includes_ == kMaxIncludes) return expected(path, "at most 1000 includes in all");
@@ -133,8 +146,8 @@ MessageText Words::mistake(const Token& at, StatusCode code) {
   return MessageText(status_.message, sizeof status_.message);
 }
 
-MessageText Words::mistake_in(std::string_view file, const Token& at) {
-  const MessageText message = mistake(at);
+MessageText Words::mistake_in(std::string_view file, const Token& at, StatusCode code) {
+  const MessageText message = mistake(at, code);
   status_.file[0] = 0;
   place(file, at);
   return message;

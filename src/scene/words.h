@@ -41,6 +41,9 @@ class Words {
   [[nodiscard]] bool resolve(const Token& path, std::string_view& resolved);
   /// The text of the file that `path` names, which is no scene file; `resolved` as above.
   [[nodiscard]] bool read(const Token& path, std::string_view& resolved, std::string_view& text);
+  /// The same for a path that stands in `file`, relative to it; `file` is what read() gave last, and goes on standing.
+  [[nodiscard]] bool read_beside(std::string_view file, const Token& path, std::string_view& resolved,
+                                 std::string_view& text);
   /// Back to the including file; only at the end of an included one.
   void leave();
   bool included() const { return depth_ > 0; }
@@ -48,7 +51,7 @@ class Words {
   /// A mistake at a word of the current file: the rest of the message is to be added to what is returned.
   MessageText mistake(const Token& at, StatusCode code = StatusCode::kScene);
   /// The same in a file that read() gave.
-  MessageText mistake_in(std::string_view file, const Token& at);
+  MessageText mistake_in(std::string_view file, const Token& at, StatusCode code = StatusCode::kScene);
   /// "expected <what>, found <the word>"; always false.
   bool expected(const Token& at, std::string_view what) {
     return expected_other(at, features::kMessages ? what : std::string_view());

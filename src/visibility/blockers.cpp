@@ -1,6 +1,6 @@
 #include "visibility/blockers.h"
 
-#include "visibility/sort.h"
+#include "base/sort.h"
 
 namespace shodo {
 

@@ -7,8 +7,8 @@
 // From one such vertex to the next the edge passes one triangle only, and is beyond it all along. Exact: whether an
 // edge passes short. Approximate: where the new vertex stands, which only has to be the same for all polygons along
 // that edge: it is found from the ends in ascending order.
+#include "base/sort.h"
 #include "visibility/mending.h"
-#include "visibility/sort.h"
 #include "visibility/surface.h"
 
 namespace shodo {

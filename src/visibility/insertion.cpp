@@ -4,8 +4,8 @@
 // edge: two steps catch it. Which sites an edge gets depends on its two ends and the sites alone, not on the polygon,
 // so two polygons with a common edge get the same chain, and no gap can open (design: T-junctions). Exact: the
 // distance, in fractions.
+#include "base/sort.h"
 #include "visibility/mending.h"
-#include "visibility/sort.h"
 
 namespace shodo {
 

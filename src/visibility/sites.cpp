@@ -1,7 +1,7 @@
 // Vertices become sites: rounded to even lattice points, equal ones become one.
+#include "base/sort.h"
 #include "visibility/drawn.h"
 #include "visibility/mending.h"
-#include "visibility/sort.h"
 
 namespace shodo {
 

@@ -28,7 +28,8 @@ std::vector<Case> cases() {
   blocks.blocks = true;
   return {{"sun.scn", none},   {"box.scn", none},      {"shapes.scn", none}, {"shapes.scn", none, FlagMode::kOff},
           {"box.scn", paper},  {"box.scn", repeated},  {"shapes.scn", blocks},
-          {"shapes.scn", blocks, FlagMode::kOff, true}, {"textures.scn", none}, {"glass.scn", none}};
+          {"shapes.scn", blocks, FlagMode::kOff, true}, {"textures.scn", none}, {"glass.scn", none},
+          {"model.scn", none}};
 }
 
 /// Load, solve and draw in memory that ends where it says.

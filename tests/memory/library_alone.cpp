@@ -19,8 +19,14 @@ long g_mallocs = 0;
 
 constexpr std::size_t kBytes = 4 << 20;
 alignas(16) unsigned char g_memory[kBytes];
-char g_text[1 << 16], g_texture[1 << 16];
-std::string_view g_picture;  // the one that scenes name
+char g_text[1 << 16];
+
+/// What the scenes name.
+struct Named {
+  const char* path;
+  char buffer[1 << 16];
+  std::string_view text;
+} g_named[] = {{"tiles.ppm", {}, {}}, {"model.obj", {}, {}}, {"model.mtl", {}, {}}};
 
 template <std::size_t kSize>
 std::string_view read_text(const char* path, char (&buffer)[kSize]) {
@@ -31,9 +37,11 @@ std::string_view read_text(const char* path, char (&buffer)[kSize]) {
   return {buffer, size};
 }
 
-bool give_picture(void*, std::string_view, std::string_view& text) {
-  text = g_picture;
-  return true;
+bool give(void*, std::string_view path, std::string_view& text) {
+  for (const Named& named : g_named) {
+    if (path == named.path) text = named.text;
+  }
+  return !text.empty();
 }
 
 /// Load, solve, draw. 0, or a line of this file.
@@ -44,7 +52,7 @@ int run(std::string_view text) {
   options.height = 30;
   options.rules.blocks = true;
   Model* model = nullptr;
-  if (!load("scene", text, {give_picture, nullptr}, options, g_memory, kBytes, model).done()) return __LINE__;
+  if (!load("scene", text, {give, nullptr}, options, g_memory, kBytes, model).done()) return __LINE__;
   if (!solve(*model, {}).done()) return __LINE__;
   long lines = 0;
   const LineSink sink{[](void* count, std::uint32_t, std::span<const std::uint8_t>) {
@@ -120,7 +128,11 @@ int main(int count, char** words) {
     return 1;
   }
   int failures = 0;
-  g_picture = read_text("tests/cli/scenes/tiles.ppm", g_texture);
+  for (Named& named : g_named) {
+    char path[40];
+    std::snprintf(path, sizeof path, "tests/cli/scenes/%s", named.path);
+    named.text = read_text(path, named.buffer);
+  }
   for (int k = 1; k < count; ++k) {
     const Counted counted = count_calls(read_text(words[k], g_text), -1);
     const bool right = counted.status == 0 && counted.calls == none.calls;

@@ -165,10 +165,6 @@ TEST(SceneRefusals, Materials) {
   expect_refused(after_start("material m diffuse 0.5", 10, "not used before, found 'm'"));
 }
 
-TEST(SceneRefusals, WhatIsStillToCome) {
-  expect_refused(after_start("obj chair.obj", 1, "'obj' is not supported yet"));
-}
-
 TEST(SceneRefusals, Names) {
   const std::string long_name(64, 'n');
   for (const std::string& name : {std::string("a.b"), std::string("a/b"), std::string("\xc3\xa9"), std::string("a*"),
