@@ -89,12 +89,12 @@ report: $(BUILD)/shodo
 # The paper's two figures.
 rooms: $(OUT)/day.png $(OUT)/evening.png
 
-$(OUT)/%.png: data/%.scn $(BUILD)/shodo $(wildcard data/* data/textures/*)
+$(OUT)/%.png: data/%.scn $(BUILD)/shodo $(wildcard data/* data/*/*)
 	@mkdir -p $(OUT)
 	$(BUILD)/shodo render $< -o $@ --stats $(OUT)/$*.json
 
 # Those of doc/pictures.md.
-PICTURE_SCENES = cornell white_box door stair studio garden gallery
+PICTURE_SCENES = cornell white_box door stair studio garden gallery office
 VIEWS = false-colour isolux patches day-maps evening-maps day-window evening-window
 pictures: doc/pictures/day.png doc/pictures/evening.png doc/pictures/difference.png \
   $(PICTURE_SCENES:%=doc/pictures/%.png) $(VIEWS:%=doc/pictures/%.png)
@@ -111,7 +111,7 @@ doc/pictures/isolux.png: SCENE = door
 doc/pictures/isolux.png: SHOWN = --isolux auto
 doc/pictures/patches.png: SCENE = stair
 doc/pictures/patches.png: SHOWN = --show patches
-doc/pictures/%.png: $(BUILD)/shodo $(wildcard data/* data/textures/*)
+doc/pictures/%.png: $(BUILD)/shodo $(wildcard data/* data/*/*)
 	$(BUILD)/shodo render data/$(SCENE).scn -o $@ --size 400x320 $(SHOWN)
 doc/pictures/difference.png: $(BUILD)/shodo data/door.scn
 	@mkdir -p $(OUT)

@@ -73,6 +73,7 @@ constexpr Case kCases[] = {
     {"glass", "tests/cli/scenes/glass.scn", small, Scarce::kNever, false, true},
     {"gather", "tests/cli/scenes/shapes.scn", gather, Scarce::kNever, false, false},
     {"panes", "tests/cli/scenes/glass.scn", gather, Scarce::kNever, false, false},
+    {"model", "tests/cli/scenes/model.scn", small, Scarce::kNever, false, false},
     {"luminaires", "tests/cli/scenes/luminaires.scn", gather, Scarce::kNever, false, false, true},
     {"day", "data/day.scn", room, Scarce::kNever, false, false},
 };

@@ -14,6 +14,9 @@ COMPILED_IN(file_planes, "tests/cli/scenes/planes.scn");
 COMPILED_IN(file_textures, "tests/cli/scenes/textures.scn");
 COMPILED_IN(file_tiles, "tests/cli/scenes/tiles.ppm");
 COMPILED_IN(file_glass, "tests/cli/scenes/glass.scn");
+COMPILED_IN(file_model, "tests/cli/scenes/model.scn");
+COMPILED_IN(file_model_obj, "tests/cli/scenes/model.obj");
+COMPILED_IN(file_model_mtl, "tests/cli/scenes/model.mtl");
 COMPILED_IN(file_luminaires, "tests/cli/scenes/luminaires.scn");
 COMPILED_IN(file_spread, "tests/cli/scenes/spread.ies");
 COMPILED_IN(file_day, "data/day.scn");
@@ -42,6 +45,9 @@ constexpr File kFiles[] = {
     {"tests/cli/scenes/textures.scn", file_textures, file_textures_end},
     {"tiles.ppm", file_tiles, file_tiles_end},  // as textures.scn calls it
     {"tests/cli/scenes/glass.scn", file_glass, file_glass_end},
+    {"tests/cli/scenes/model.scn", file_model, file_model_end},
+    {"model.obj", file_model_obj, file_model_obj_end},  // as model.scn and model.obj call them
+    {"model.mtl", file_model_mtl, file_model_mtl_end},
     {"tests/cli/scenes/luminaires.scn", file_luminaires, file_luminaires_end},
     {"spread.ies", file_spread, file_spread_end},  // as luminaires.scn calls it
     {"data/day.scn", file_day, file_day_end},

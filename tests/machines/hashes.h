@@ -25,6 +25,7 @@ inline constexpr Hashes kHashes[] = {
     {"glass", 0x6cc751323a778a3d, 0x58697b5a63077c42},
     {"gather", 0x60717a8824becd08, 0x2dc08ce90015848c},
     {"panes", 0x6e254e90baa5f731, 0x3e05a44b45aac202},
+    {"model", 0x54348534509b4037, 0x54e827a78fd9d9b9},
     {"luminaires", 0x027b85ac47e4766d, 0x8b1ee0156b48cc9d},
     {"day", 0x4d17f10317cab793, 0x01f88f56d6b2d7be},
 };
