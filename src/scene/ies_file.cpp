@@ -163,14 +163,9 @@ bool IesReading::expected(const Token& at, std::string_view what) {
 bool IesReading::number(std::string_view what, const Interval& allowed, double& value, Token* at) {
   const Token token = text_.word();
   if (at != nullptr) *at = token;
-  const DecimalResult result = parse_decimal(token.text);
-  value = result.value;
-  if (result.error == DecimalError::none && value >= allowed.low && value <= allowed.high) return true;
+  if (number_of(token, allowed, value)) return true;
   MessageText message = mistake(token);
-  message.add("expected a number");
-  if (result.error == DecimalError::none) message.add(" from ").add(allowed.low).add(" to ").add(allowed.high);
-  message.add(" (").add(what).add(')');
-  add_found(message, token);
+  add_expected_number(message, token, {what}, allowed);
   return false;
 }
 

@@ -134,7 +134,9 @@ class ObjFile {
   }
 
   bool count_face(ModelWords& words, const Token& word) {
-    if (own_materials() && !named_) return words.expected(word, "'usemtl' before the first face");
+    if (own_materials() && !named_) {
+      return words.expected(word, "'usemtl' before the first face, or a material beside 'obj'");
+    }
     if (unused_) ++use_count_;
     unused_ = false;
     std::uint32_t corners = 0;
@@ -298,8 +300,10 @@ class ObjFile {
     const std::uint64_t most = back ? vertices_so_far_ : vertices_.size();
     if (!whole || index == 0 || index > most) {
       MessageText message = words.mistake(at);
-      message.add("expected a vertex from 1 to ").add(vertices_.size());
-      message.add(" or, counted back, from -1 to -").add(vertices_so_far_);
+      message.add("expected a vertex");
+      if (vertices_.empty()) message.add(", and the file to have any");
+      if (!vertices_.empty()) message.add(" from 1 to ").add(vertices_.size());
+      if (vertices_so_far_ > 0) message.add(" or, counted back, from -1 to -").add(vertices_so_far_);
       add_found(message, at);
       return false;
     }

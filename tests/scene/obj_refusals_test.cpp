@@ -123,7 +123,9 @@ TEST(ObjRefusals, Faces) {
   expect_refused(kStart + "obj a.obj material m\n", {{"a.obj", "v 0 0 0\nv 1 0 0\nf -1 -2 -3\nv 0 1 0\n"}},
                  "a.obj:3:9: expected a vertex from 1 to 3 or, counted back, from -1 to -2, found '-3'");
   expect_refused(kStart + "obj a.obj material m\n", {{"a.obj", "f 1 2 3"}},
-                 "a.obj:1:3: expected a vertex from 1 to 0 or");
+                 "a.obj:1:3: expected a vertex, and the file to have any, found '1'");
+  expect_refused(kStart + "obj a.obj material m\n", {{"a.obj", "f -1 2 3\n" + kCorners}},
+                 "a.obj:1:3: expected a vertex from 1 to 4, found '-1'");
 }
 
 TEST(ObjRefusals, AFaceOfMoreThan1024Corners) {
@@ -144,7 +146,8 @@ TEST(ObjRefusals, WhatIsPlacedBeyondTheNumbersThatASceneCanHave) {
 TEST(ObjRefusals, Materials) {
   const std::string face = kCorners + "f 1 2 3\n", wood = "mtllib a.mtl\nusemtl wood\n" + face;
   const std::string scene = kStart + "obj s/a.obj\n";
-  expect_refused(scene, {{"s/a.obj", face}}, "s/a.obj:5:1: expected 'usemtl' before the first face, found 'f'");
+  expect_refused(scene, {{"s/a.obj", face}},
+                 "s/a.obj:5:1: expected 'usemtl' before the first face, or a material beside 'obj', found 'f'");
   expect_refused(scene, {{"s/a.obj", "usemtl wood\n" + face}},
                  "s/a.obj:1:8: expected the name of a material of an MTL file, found 'wood'");
   expect_refused(scene,
