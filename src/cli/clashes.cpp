@@ -34,9 +34,9 @@ std::string file_behind(const std::string& name) {
 
 }  // namespace
 
-bool outputs_apart(const Arguments& arguments, std::string& mistake) {
+bool outputs_apart(const Arguments& arguments, const std::vector<std::string>& inputs, std::string& mistake) {
   std::vector<std::string> taken, read;
-  for (const std::string& input : arguments.scenes) read.push_back(place_of(input));
+  for (const std::string& input : inputs) read.push_back(place_of(input));
   const bool is_folder = arguments.command == Command::kMap || arguments.command == Command::kReport;
   const std::string folder = is_folder ? place_of(arguments.output) + "/" : "";
   const std::string outputs[] = {arguments.output, arguments.csv, arguments.statistics, arguments.summary};

@@ -36,7 +36,7 @@ int print(const std::string& text) {
 int run(int count, char** words) {
   Arguments arguments;
   std::string mistake;
-  if (!parse_arguments(count, words, arguments, mistake) || !outputs_apart(arguments, mistake)) {
+  if (!parse_arguments(count, words, arguments, mistake) || !outputs_apart(arguments, arguments.scenes, mistake)) {
     std::fprintf(stderr, "shodo: %s (see shodo --help)\n", mistake.c_str());
     return 2;
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "cli/clashes.h"
 #include "cli/luminaires.h"
 #include "cli/overlaps.h"
 
@@ -48,6 +49,11 @@ Status Run::load_into(std::size_t bytes) {
   Status status =
       shodo::load(arguments_.scene, text_, files_.reader(), arguments_.options, memory_->start(), bytes, model_);
   files_.explain(status);
+  std::string mistake;
+  if (status.done() && !outputs_apart(arguments_, files_.paths(), mistake)) {
+    status.code = StatusCode::kUsage;
+    std::snprintf(status.message, sizeof status.message, "%s", mistake.c_str());
+  }
   return status;
 }
 

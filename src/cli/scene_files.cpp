@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 
@@ -84,6 +85,7 @@ void SceneFiles::explain(Status& status) const {
 bool SceneFiles::read(const std::string& path, std::string_view& text, FileError& error) {
   std::string whole;
   if (const int reason = read_whole(path, whole); reason != 0) return error.set(path, reason);
+  if (std::find(paths_.begin(), paths_.end(), path) == paths_.end()) paths_.push_back(path);
   undecoded_.clear();
   if (is_image_name(path)) {
     std::string ppm;

@@ -4,6 +4,7 @@
 #include <deque>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cli/output.h"
 #include "shodo/callbacks.h"
@@ -21,6 +22,8 @@ class SceneFiles {
   /// Says more than the library can: an included file's path from the working folder, and of a picture that couldn't be
   /// decoded, for which the library asks for a PPM, what the program takes.
   void explain(Status& status) const;
+  /// All files that were read.
+  const std::vector<std::string>& paths() const { return paths_; }
 
  private:
   bool read(const std::string& path, std::string_view& text, FileError& error);
@@ -28,6 +31,7 @@ class SceneFiles {
   std::string scene_;
   std::string folder_;             // with its slash; empty: the working folder
   std::deque<std::string> texts_;  // addresses stay
+  std::vector<std::string> paths_;
   std::string undecoded_;          // the picture read last, if it couldn't be decoded
 };
 

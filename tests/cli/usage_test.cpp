@@ -175,6 +175,32 @@ TEST(CommandLine, AnOutputIsNeverAFileThatIsReadNorAnotherOutput) {
   EXPECT_EQ(run({"render", "a.scn", "-o", "x.ppm", "--csv", "/dev/null", "--size", "2x2"}, folder.path()).status, 0);
 }
 
+TEST(CommandLine, AnOutputIsNeverAFileThatTheSceneNames) {
+  const TestFolder folder;
+  const std::string top = "include part.scn\nobject o\nobj model.obj\n"
+                          "light l point at 1 1 1 towards 0 -1 0 ies s.ies\n";
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {"a.scn", "shodo 1\nmaterial m diffuse 0.3 texture tiles.ppm\n" + top + "quad m 0 0 0 0 0 1 1 0 1 1 0 0\n"},
+      {"part.scn", "camera c eye 1 1 1 look 0 0 0 up 0 1 0 fov 60\n"},
+      {"tiles.ppm", file_text(test_scene("tiles.ppm"))},
+      {"model.obj", file_text(test_scene("model.obj"))},
+      {"model.mtl", file_text(test_scene("model.mtl"))},
+      {"s.ies", file_text(test_scene("spread.ies"))}};
+  for (const auto& [name, text] : files) folder.write(name, text);
+  for (const std::string name : {"part.scn", "tiles.ppm", "model.obj", "model.mtl", "s.ies"}) {
+    for (const Running::Words& words : std::vector<Running::Words>{
+             {"map", "a.scn", "-o", "m", "--csv", name}, {"render", "a.scn", "-o", "x.ppm", "--stats", "./" + name}}) {
+      const Outcome outcome = run(words, folder.path());
+      EXPECT_EQ(outcome.status, 2) << name;
+      EXPECT_TRUE(contains(outcome.err, name + "' is a file that is read")) << outcome.err;
+    }
+  }
+  EXPECT_EQ(run({"render", "a.scn", "-o", "tiles.ppm"}, folder.path()).status, 2);
+  EXPECT_EQ(run({"map", "a.scn", "-o", "m", "--csv", "s.csv"}, folder.path()).status, 0);
+  for (const auto& [name, text] : files) EXPECT_EQ(file_text(folder / name), text) << name;
+  EXPECT_EQ(folder.entries().size(), files.size() + 2);
+}
+
 TEST(CommandLine, EveryOptionIsTakenAtBothEndsOfItsRange) {
   const std::string scene = test_scene("sun.scn");
   const std::vector<Running::Words> options = {
