@@ -129,7 +129,7 @@ class IesReading {
   bool read_candelas(std::span<float> candela);
   bool number(std::string_view what, const Interval& allowed, double& value, Token* at = nullptr);
   bool count(std::string_view what, std::size_t& value);
-  bool ascends(double angle, double& last, const Token& at, bool first);
+  bool next_angle(std::string_view what, double most, const float* last, float& angle, Token& at);
   MessageText mistake(const Token& at);
   bool expected(const Token& at, std::string_view what);
 
@@ -228,39 +228,44 @@ bool IesReading::read_sizes() {
   return true;
 }
 
-bool IesReading::ascends(double angle, double& last, const Token& at, bool first) {
-  const bool good = first || angle > last;
-  last = angle;
-  return good || expected(at, "angles that ascend");
+/// Above `last` if there is one, and so as a float too: no two angles of the table are one.
+bool IesReading::next_angle(std::string_view what, double most, const float* last, float& angle, Token& at) {
+  double value = 0;
+  if (!number(what, {0, most}, value, &at)) return false;
+  angle = static_cast<float>(value);
+  return last == nullptr || angle > *last || expected(at, "angles that ascend");
 }
 
 bool IesReading::read_verticals(std::span<float> angles) {
-  double last = 0;
+  float last = 0;
   for (std::size_t k = 0; k < verticals_; ++k) {
-    double angle = 0;
+    float angle = 0;
     Token at;
-    if (!number("vertical angle", {0, 180}, angle, &at) || !ascends(angle, last, at, k == 0)) return false;
+    if (!next_angle("vertical angle", 180, k > 0 ? &last : nullptr, angle, at)) return false;
     if (k == 0 && angle != 0 && angle != 90) return expected(at, "a first vertical angle of 0 or 90");
     if (k + 1 == verticals_ && ((angle != 90 && angle != 180) || k == 0)) {
       return expected(at, "a last vertical angle of 90 or 180");
     }
-    if (!angles.empty()) angles[k] = static_cast<float>(angle);
+    if (!angles.empty()) angles[k] = angle;
+    last = angle;
   }
   return true;
 }
 
 /// Which part of the circle the half-planes stand for follows from the first and the last.
 bool IesReading::read_horizontals(std::span<float> angles) {
-  double last = 0, before = 0, first = 0;
+  float last = 0, before = 0, first = 0;
   Token at;
   for (std::size_t k = 0; k < horizontals_; ++k) {
-    double angle = 0;
-    before = last;
-    if (!number("horizontal angle", {0, 360}, angle, &at) || !ascends(angle, last, at, k == 0)) return false;
+    float angle = 0;
+    if (!next_angle("horizontal angle", 360, k > 0 ? &last : nullptr, angle, at)) return false;
     if (k == 0) first = angle;
-    if (!angles.empty()) angles[k] = static_cast<float>(angle);
+    if (!angles.empty()) angles[k] = angle;
+    before = last;
+    last = angle;
   }
-  const double gap = 360 - last - (last - before);
+  const double step = static_cast<double>(last) - static_cast<double>(before);
+  const double gap = 360 - static_cast<double>(last) - step;
   closes_ = first == 0 && last > 180 && last < 360 && gap <= kSameStep && gap >= -kSameStep;
   if (closes_ && !angles.empty()) angles[horizontals_] = 360;
   const bool whole = last == 0 || last == 90 || last == 180 || last == 360 || closes_;

@@ -183,6 +183,8 @@ TEST(IesFile, WhatIsNotOneIsRefusedWithItsPlace) {
            {head + "1 1 1 2 2 1 1 0 0 0\n1 1 1\n0 80", "5:3", "expected a last vertical angle of 90 or 180"},
            {head + "1 1 1 1 2 1 1 0 0 0\n1 1 1\n90", "5:1", "expected a last vertical angle of 90 or 180"},
            {head + "1 1 1 3 2 1 1 0 0 0\n1 1 1\n0 45\n45", "6:1", "expected angles that ascend, found '45'"},
+           {head + "1 1 1 3 2 1 1 0 0 0\n1 1 1\n0 89.9999999 90", "5:14", "angles that ascend, found '90'"},
+           {head + "1 1 1 2 3 1 1 0 0 0\n1 1 1\n0 90\n0 60 60.0000001", "6:6", "expected angles that ascend"},
            {head + "1 1 1 2 2 1 1 0 0 0\n1 1 1\n0 90\n0 400", "6:3", "from 0 to 360 (horizontal angle)"},
            {head + "1 1 1 2 2 1 1 0 0 0\n1 1 1\n0 90\n0 0", "6:3", "angles that ascend"},
            {head + "1 1 1 2 2 1 1 0 0 0\n1 1 1\n0 90\n0 120", "6:3", "a last horizontal angle of 0, 90, 180 or 360"},
