@@ -162,7 +162,7 @@ Received SubPatch::receive_in_cell(std::uint32_t l, std::uint32_t k) {
 }
 
 /// Asks for all samples; those next to the corners have answered already. Near a point light the values at the samples
-/// only share out the mean. The sun is looked at from elsewhere in their cells, four times (light/sample_shift.h).
+/// only share out the mean: evenly, if a luminaire's light falls between all of them. The sun is looked at from elsewhere in their cells, four times (light/sample_shift.h).
 void SubPatch::sample_finely(std::uint32_t l, const Received* probed, bool near, double mean) {
   const bool elsewhere = sources_.light(l).kind == LightKind::kSun && grid_.corner_count() == 4;
   if (elsewhere && !shifted_) {
@@ -180,7 +180,11 @@ void SubPatch::sample_finely(std::uint32_t l, const Received* probed, bool near,
     weight += grid_.weight(k);
     lux += grid_.weight(k) * received[k].lux;
   }
-  const double correction = !near ? 1 : lux > 0 ? mean * weight / lux : 0;
+  double correction = !near ? 1 : lux > 0 ? mean * weight / lux : 0;
+  if (features::kLuminaires && near && !(lux > 0)) {
+    for (Received& one : received) one.lux = mean;
+    correction = 1;
+  }
   for (std::uint32_t k = 0; k < kGridSamples; ++k) add_to_fine(l, k, received[k], correction);
 }
 

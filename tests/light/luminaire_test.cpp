@@ -137,5 +137,22 @@ TEST(Luminaire, AllOfItsLightArrives) {
   EXPECT_NEAR(arrived("at 0.001 0.002 0.003 towards 1 1 1", any), 1, 0.005);
 }
 
+TEST(Luminaire, LightThatFallsBetweenAllSamplesOfAPartlyShadowedSubPatchIsThere) {
+  // 600 cd down to 45 degrees, nothing from 50 on, 4 cm over the middle of a sub-patch of 50 cm: up to 5 cm around it.
+  // Samples are 12.5 cm apart. Those of one side, beyond the light, are under a card with two fronts.
+  const std::string file = "TILT=NONE\n1 -1 1 4 1 1 2 0 0 0\n1 1 0\n0 45 50 90\n0\n600 600 0 0\n";
+  const std::string text = "shodo 1\nmaterial b diffuse 0\nobject floor\n"
+                           "quad b 0 0 0 0 0 2 2 0 2 2 0 0 patches 1 1 sub 4 4\nobject card\n"
+                           "quad b 0.5 0.005 0.9 0.5 0.005 1 1 0.005 1 1 0.005 0.9 patches 1 1 sub 1 1\n"
+                           "quad b 0.5 0.005 0.9 1 0.005 0.9 1 0.005 1 0.5 0.005 1 patches 1 1 sub 1 1\n"
+                           "light l point at 0.75 0.04 0.75 towards 0 -1 0 ies a.ies\n";
+  TestFiles files{{"a.ies", file}};
+  const SolvedScene s(text, {}, std::size_t{8} << 20, reader_of(files));
+  double sum = 0;
+  for (std::uint32_t k = 0; k < 16; ++k) sum += 0.25 * static_cast<double>(s.model->maps.direct_lx[k]);
+  // Twelve of sixteen samples share the flux, which is the cells' to 1 %.
+  EXPECT_NEAR(sum / s.model->scene.luminaires[0].lumens, 0.75, 0.0075);
+}
+
 }  // namespace
 }  // namespace shodo
