@@ -162,7 +162,8 @@ Received SubPatch::receive_in_cell(std::uint32_t l, std::uint32_t k) {
 }
 
 /// Asks for all samples; those next to the corners have answered already. Near a point light the values at the samples
-/// only share out the mean: evenly, if a luminaire's light falls between all of them. The sun is looked at from elsewhere in their cells, four times (light/sample_shift.h).
+/// only share out the mean: evenly, if a luminaire's light falls between all of them. The sun is looked at from
+/// elsewhere in their cells, four times (light/sample_shift.h).
 void SubPatch::sample_finely(std::uint32_t l, const Received* probed, bool near, double mean) {
   const bool elsewhere = sources_.light(l).kind == LightKind::kSun && grid_.corner_count() == 4;
   if (elsewhere && !shifted_) {
