@@ -103,7 +103,7 @@ PartText plan_part_text(PlanPart part) {
   static constexpr PartText kTexts[] = {
       {"the model", "its structure, and up to 7 for alignment"},
       {"scene",
-       "40 materials + 40 objects + 56 meshes + 24 vertices + 260 lights + 96 cameras + 136 planes + names; "
+       "40 materials + 40 objects + 48 meshes + 24 vertices + 248 lights + 96 cameras + 136 planes + names; "
        "24 textured meshes + 4 c a patch of one; 128 luminaires + 4 a candela and angle"},
       {"triangles that block", "72 triangles + 8 polygons + 4 meshes + 8 lights"},
       {"triangles of the picture", "68 drawn triangles; spare: given up while there is light to find"},

@@ -1,7 +1,7 @@
 // The words of a file that a scene names and that is no scene file itself (OBJ, MTL), and the messages about them.
 //
 // Words are the Lexer's: blanks and tabs part them, '#' ends a line, control characters are refused. A line whose last
-// word ends in '\' goes on in the next one. Bytes: sizeof(ModelWords), about 200; nothing of the arena.
+// word ends in '\' goes on in the next one. Bytes: sizeof(ModelWords), about 150; nothing of the arena.
 #pragma once
 
 #include <string_view>

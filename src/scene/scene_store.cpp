@@ -6,7 +6,12 @@ namespace shodo {
 
 namespace {
 
-/// Bytes of a block as the arena rounds them; SIZE_MAX if there are too many.
+// src/memory_plan.cpp tells them.
+static_assert(sizeof(void*) != 8 || !features::kMeshes ||
+              (sizeof(Material) == 40 && sizeof(Object) == 40 && sizeof(Mesh) == 48 && sizeof(Vec3) == 24 &&
+               sizeof(Light) == 248 && sizeof(Camera) == 96 && sizeof(Plane) == 136 && sizeof(Luminaire) == 128));
+
+/// Bytes of a block as the arena rounds them; more than an arena has if there are too many.
 template <class T>
 std::size_t block_bytes(std::uint64_t count) {
   if (count > (SIZE_MAX / 16) / sizeof(T)) return SIZE_MAX / 16;

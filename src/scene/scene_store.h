@@ -2,7 +2,7 @@
 //
 // A scene file is read twice: the first time everything is only counted, then all blocks are taken at their exact
 // sizes, and the second time they are filled. So nothing is moved and nothing is left over. Bytes: 40 materials + 40
-// objects + 56 meshes + 24 vertices + 248 lights + 96 cameras + 136 planes + 72 optics + 144 backgrounds + 104 glass +
+// objects + 48 meshes + 24 vertices + 248 lights + 96 cameras + 136 planes + 72 optics + 144 backgrounds + 104 glass +
 // 96 textures + 128 luminaires + the lengths of names and of files' paths, each block rounded up to 8 (64-bit
 // pointers). Names are looked up in file order, in the second reading only.
 #pragma once
