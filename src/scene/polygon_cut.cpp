@@ -9,6 +9,8 @@ namespace shodo {
 namespace {
 
 constexpr int kStepBits = 30;
+/// Of the sum of a polygon's triangles, whichever way they turn.
+constexpr double kLeastArea = 0x1p-30;
 
 /// Twice the area of a triangle, above 0 if it turns left. Coordinates are from 0 to 2^30: it is below 2^62.
 std::int64_t turn(const CutCorner& a, const CutCorner& b, const CutCorner& c) {
@@ -55,20 +57,29 @@ struct LatticeAxis {
   double low = 0, steps = 0;
 };
 
+double size(const Vec3& p) { return magnitude(p.x) + magnitude(p.y) + magnitude(p.z); }
+
+/// Twice it, as a sum of triangles; 0 if it is next to nothing beside theirs: a polygon that crosses itself may have
+/// none, and what rounding leaves of it says nothing about its plane.
 Vec3 vector_area(std::span<const Vec3> corners) {
   Vec3 sum;
+  double all = 0;
   for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
-    sum = sum + cross(corners[k] - corners[0], corners[k + 1] - corners[0]);
+    const Vec3 one = cross(corners[k] - corners[0], corners[k + 1] - corners[0]);
+    sum = sum + one;
+    all += size(one);
   }
-  return sum;
+  return size(sum) > kLeastArea * all ? sum : Vec3{};
 }
 
 class Cutting {
  public:
   Cutting(std::span<CutCorner> corners, std::span<CutTriangle> triangles) : corners_(corners), triangles_(triangles) {}
 
-  void place(std::span<const Vec3> corners) {
+  /// False if there is no plane to see it in.
+  bool place(std::span<const Vec3> corners) {
     const Vec3 area = vector_area(corners);
+    if (area == Vec3{}) return false;
     int axis = magnitude(area.y) > magnitude(area.x) ? 1 : 0;
     if (magnitude(area.z) > magnitude(component(area, axis))) axis = 2;
     const bool turned = component(area, axis) < 0;
@@ -80,6 +91,7 @@ class Cutting {
                      static_cast<std::uint16_t>((k + 1) % n), false};
     }
     left_ = n;
+    return true;
   }
 
   /// False if it comes to an end before the polygon does. Cutting off an ear makes ears of its neighbours only: what
@@ -182,8 +194,7 @@ std::uint32_t cut_polygon(std::span<const Vec3> corners, std::span<CutCorner> sc
   SHODO_CHECK(corners.size() >= 3 && corners.size() <= kMostCorners && scratch.size() >= corners.size());
   SHODO_CHECK(triangles.size() + 2 >= corners.size());
   Cutting cutting(scratch, triangles);
-  cutting.place(corners);
-  return cutting.clip() && !cutting.overlap() ? cutting.count() : 0;
+  return cutting.place(corners) && cutting.clip() && !cutting.overlap() ? cutting.count() : 0;
 }
 
 }  // namespace shodo

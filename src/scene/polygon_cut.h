@@ -5,7 +5,8 @@
 // which the whole scene will lie (base/lattice.h), and whole millimetres stay what they are. From there on everything
 // is decided in integers, exactly. An ear is a corner that turns left whose triangle no other part of the polygon
 // enters; polygons that touch themselves, as those do whose holes are joined to the rim by a double edge, have ears
-// too. Corners where the polygon turns back on itself are passed over.
+// too. Corners where the polygon turns back on itself are passed over. A polygon whose parts cancel but for 2^-30 of
+// them crosses itself, and has no such axis: it is refused.
 //
 // Why what comes out is right, whatever went in: all triangles turn left and, a last step makes sure, no two overlap.
 // Their edges add up to the polygon's, so it winds around each point as often as there are triangles on it: once or

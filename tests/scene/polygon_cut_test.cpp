@@ -252,6 +252,13 @@ TEST(PolygonCut, WhatCrossesItselfOrHasNoAreaIsRefused) {
       {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {-1, 0, 0}, {0, -2, 0}, {0, 0, 0}, {-3, 0, 0}, {0, 3, 0}},
   };
   for (const std::vector<Vec3>& corners : wrong) EXPECT_TRUE(cut(corners).empty()) << corners.size();
+  // Aslant, and with as much area this way round as that: what rounding leaves of the sum is along any axis.
+  std::vector<Vec3> aslant;
+  for (const Point& p : Polygon{{3, 6}, {2, 5}, {4, 4}, {6, 4}, {1, 5}}) {
+    const double along = 0.1 * static_cast<double>(p.x);
+    aslant.push_back({0.6 * along + 0.3, 0.8 * along, 0.1 * static_cast<double>(p.y)});
+  }
+  EXPECT_TRUE(cut(aslant).empty());
 }
 
 TEST(PolygonCut, ARoundPieceIsNotAFan) {
