@@ -6,8 +6,9 @@
 namespace shodo {
 namespace {
 
-/// doc/memory.md: the program's code and data, the C and C++ libraries, stack, heap.
-constexpr long kConstantKib = 4 * 1024;
+/// doc/memory.md: the program's code and data, the C and C++ libraries, stack, heap. 3.5 to 4.1 MiB were seen: which
+/// pages of a library come with one that is touched depends on where it lies.
+constexpr long kConstantKib = 5 * 1024;
 
 long peak_kib(const std::string& memory, const std::string& size, const std::string& file) {
   const TestFolder folder;
