@@ -26,7 +26,8 @@ struct Named {
   const char* path;
   char buffer[1 << 16];
   std::string_view text;
-} g_named[] = {{"tiles.ppm", {}, {}}, {"model.obj", {}, {}}, {"model.mtl", {}, {}}};
+} g_named[] = {{"tiles.ppm", {}, {}}, {"model.obj", {}, {}}, {"model.mtl", {}, {}},
+             {"spread.ies", {}, {}}};
 
 template <std::size_t kSize>
 std::string_view read_text(const char* path, char (&buffer)[kSize]) {
