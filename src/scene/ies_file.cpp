@@ -130,7 +130,7 @@ class IesReading {
   bool number(std::string_view what, const Interval& allowed, double& value, Token* at = nullptr);
   bool count(std::string_view what, std::size_t& value);
   bool next_angle(std::string_view what, double most, const float* last, float& angle, Token& at);
-  MessageText mistake(const Token& at);
+  MessageText mistake(const Token& at) { return mistake_at(status_, StatusCode::kScene, path_, at); }
   bool expected(const Token& at, std::string_view what);
 
   std::string_view path_;
@@ -141,17 +141,6 @@ class IesReading {
   std::size_t verticals_ = 0, horizontals_ = 0;
   bool closes_ = false;  // the half-plane at 360 isn't in the file
 };
-
-MessageText IesReading::mistake(const Token& at) {
-  status_ = {};
-  status_.code = StatusCode::kScene;
-  constexpr std::size_t kRoom = sizeof status_.file - 1;
-  const std::size_t over = path_.size() > kRoom ? path_.size() - kRoom : 0;
-  TextBuilder(status_.file, sizeof status_.file).add(slice(path_, over));
-  status_.line = at.line;
-  status_.column = at.column;
-  return MessageText(status_.message, sizeof status_.message);
-}
 
 bool IesReading::expected(const Token& at, std::string_view what) {
   MessageText message = mistake(at);

@@ -26,6 +26,14 @@ void add_quoted(MessageText& message, std::string_view text) {
   message.add(text.size() > kLongestQuote ? "...'" : "'");
 }
 
+/// Of a longer name it is the end.
+void place_at(Status& status, std::string_view file, const Token& at) {
+  constexpr std::size_t kRoom = sizeof status.file - 1;
+  TextBuilder(status.file, sizeof status.file).add(file.size() > kRoom ? slice(file, file.size() - kRoom) : file);
+  status.line = at.line;
+  status.column = at.column;
+}
+
 std::string_view problem_text(PathProblem problem) {
   switch (problem) {
     case PathProblem::kAbsolute: return "a path relative to this file";
@@ -39,6 +47,14 @@ std::string_view problem_text(PathProblem problem) {
 }
 
 }  // namespace
+
+MessageText mistake_at(Status& status, StatusCode code, std::string_view file, const Token& at) {
+  status = {};
+  status.code = code;
+  place_at(status, file, at);
+  if constexpr (!features::kMessages) TextBuilder(status.message, sizeof status.message).add(at.text);
+  return MessageText(status.message, sizeof status.message);
+}
 
 MessageText& add_found(MessageText& message, const Token& token) {
   message.add(", found ");
@@ -129,28 +145,12 @@ void Words::leave() {
   take();
 }
 
-void Words::place(const Token& at) { place(depth_ == 0 ? name_ : files_[depth_].path, at); }
+void Words::place(const Token& at) { place_at(status_, current_file(), at); }
 
-void Words::place(std::string_view name, const Token& at) {
-  constexpr std::size_t kRoom = sizeof status_.file - 1;
-  TextBuilder(status_.file, sizeof status_.file).add(name.size() > kRoom ? slice(name, name.size() - kRoom) : name);
-  status_.line = at.line;
-  status_.column = at.column;
-}
-
-MessageText Words::mistake(const Token& at, StatusCode code) {
-  status_ = {};
-  status_.code = code;
-  place(at);
-  if constexpr (!features::kMessages) TextBuilder(status_.message, sizeof status_.message).add(at.text);
-  return MessageText(status_.message, sizeof status_.message);
-}
+MessageText Words::mistake(const Token& at, StatusCode code) { return mistake_at(status_, code, current_file(), at); }
 
 MessageText Words::mistake_in(std::string_view file, const Token& at, StatusCode code) {
-  const MessageText message = mistake(at, code);
-  status_.file[0] = 0;
-  place(file, at);
-  return message;
+  return mistake_at(status_, code, file, at);
 }
 
 bool Words::expected_other(const Token& at, std::string_view what) {

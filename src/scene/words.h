@@ -67,7 +67,7 @@ class Words {
   };
 
   bool open(std::string_view path, std::string_view text);
-  void place(std::string_view file, const Token& at);
+  std::string_view current_file() const { return depth_ == 0 ? name_ : files_[depth_].path; }
   bool expected_other(const Token& at, std::string_view what);
 
   std::string_view name_, text_;
@@ -81,6 +81,8 @@ class Words {
   std::size_t paths_used_ = 0;
 };
 
+/// A mistake at a word of a file: its place, and the message to which the rest is to be added.
+MessageText mistake_at(Status& status, StatusCode code, std::string_view file, const Token& at);
 /// Adds ", found <the word>", control characters and other bytes outside ASCII as \xNN, long words cut.
 MessageText& add_found(MessageText& message, const Token& token);
 
